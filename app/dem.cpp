@@ -154,6 +154,11 @@ class DemRun final : public CaseRun {
     return lines;
   }
 
+  /// Of particles that have found no room; empty: there are none.
+  [[nodiscard]] std::string feed_warning() const {
+    return model_.feeding() == nullptr ? "" : model_.feeding()->warning();
+  }
+
   std::string record_text(const std::string& state) override {
     cpu_ = core::cpu_seconds() - cpu_begin_;
     std::array<double, 1> cpu{cpu_};
@@ -182,11 +187,13 @@ class DemRun final : public CaseRun {
         observers_ ? observers_->invariants().worst() : std::vector<measures::WorstInvariant>{};
     if (!watched.empty()) write_invariants(json, watched);
     if (observers_) write_ledger(json);
-    if (model_.outflow() != nullptr) json["outflow"] = outflow_json(*model_.outflow());
+    if (model_.outflow() != nullptr) json["outflow"] = passed_json(model_.outflow()->number);
+    if (model_.feeding() != nullptr) json["feed"] = feed_json(*model_.feeding());
     write_left_out(json, left_out_);
     if (promise) write_neglected(json, *promise);
     core::Json& warnings = json["warnings"] = exceeded_lines(watched);
     for (const std::string& line : warnings_before()) warnings.push_back(line);
+    if (const std::string line = feed_warning(); !line.empty()) warnings.push_back(line);
     for (const std::string& line : scene_warnings(scene_)) warnings.push_back(line);
     if (const std::string line = called_for_line(left_out_); !line.empty()) warnings.push_back(line);
     if (monitor_)
@@ -217,12 +224,20 @@ class DemRun final : public CaseRun {
             {"imbalance", work_.imbalance}};
   }
 
-  [[nodiscard]] core::Json outflow_json(const dem::Outflow& outflow) const {
+  /// \param number  of particles that have left or entered, of each species
+  [[nodiscard]] core::Json passed_json(const std::vector<std::int64_t>& number) const {
     core::Json json;
-    for (std::size_t j = 0; j < outflow.number.size(); ++j) {
+    for (std::size_t j = 0; j < number.size(); ++j) {
       const dem::Species& species = model_.materials().species()[j];
-      json[species.name] = {{"particles", outflow.number[j]}, {"mass_kg", double(outflow.number[j]) * species.mass}};
+      json[species.name] = {{"particles", number[j]}, {"mass_kg", double(number[j]) * species.mass}};
     }
+    return json;
+  }
+
+  [[nodiscard]] core::Json feed_json(const dem::Feeding& feeding) const {
+    core::Json json = passed_json(feeding.number);
+    const std::vector<std::int64_t> waiting = feeding.waiting();
+    for (std::size_t j = 0; j < waiting.size(); ++j) json[model_.materials().species()[j].name]["waiting"] = waiting[j];
     return json;
   }
 
@@ -233,6 +248,7 @@ class DemRun final : public CaseRun {
                                            {"elastic_J", t.elastic},
                                            {"potential_J", t.potential}};
     if (scene_.dem.ledger && model_.outflow() != nullptr) ledger["carried_out_J"] = t.carried_out;
+    if (scene_.dem.ledger && model_.feeding() != nullptr) ledger["carried_in_J"] = t.carried_in;
     if (const measures::WorstInvariant* energy = observers_->invariants().energy())
       ledger.update({{"dissipated_J", t.dissipated},
                      {"work_J", t.work},
@@ -255,6 +271,7 @@ class DemRun final : public CaseRun {
                 model_.particle_count(), work_.steps, double(work_.particle_steps) / std::max(cpu_, 1e-9),
                 work_.rebuilds);
     if (model_.outflow() != nullptr) core::print(stderr, "{} particles have left\n", model_.outflow()->all());
+    if (model_.feeding() != nullptr) core::print(stderr, "{} particles have entered\n", model_.feeding()->all());
     core::print(stderr, "step {:.3g} s, limited by {}; {} integrator ({})\n", model_.limits().dt,
                 model_.limits().limited_by, model_.synchronised() ? "synchronised" : "thesis",
                 model_.limits().integrator_reason);

@@ -36,7 +36,7 @@ std::vector<Line> lines_of(const measures::Table<Source>& table) {
 }
 
 std::vector<Section> sections() {
-  const dem::Parts all{.ledger = true, .outflow = true, .fluid = true, .compressible = true};
+  const dem::Parts all{.ledger = true, .outflow = true, .fluid = true, .feeding = true, .compressible = true};
   return {{"bed", "Of a bed", lines_of(measures::bed_table())},
           {"distances", "Of a profile beside another one", lines_of(measures::distance_table())},
           {"tfm", "Of a run of the two-fluid model", lines_of(tfm::history_table(true, true))},

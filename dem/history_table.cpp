@@ -24,6 +24,11 @@ measures::Table<Told> history_table(const Parts& parts) {
                                       "start; in the sum above it counts as "
                                       "dissipated energy does",
                                       [](const Told& t) { return t.totals.carried_out; }});
+  add(parts.ledger && parts.feeding,
+      {"carried_in", "J",
+       "with [[feed]]: energy of motion and in gravity that particles have brought with them since the start; in the "
+       "sum above it counts as work does",
+       [](const Told& t) { return t.totals.carried_in; }});
   add(true, {"contacts", "1", "pairs that touch, and particles that touch a wall",
              [](const Told& t) { return double(t.totals.contacts); }});
   add(true, {"max_overlap", "m", "the largest of any contact", [](const Told& t) { return t.totals.max_overlap; }});
@@ -37,6 +42,10 @@ measures::Table<Told> history_table(const Parts& parts) {
                       [](const Told& t, std::size_t j) { return t.number_out[j]; }});
   add(parts.outflow,
       {"out", "kg", "with dem.opening: their mass", [](const Told& t, std::size_t j) { return t.mass_out[j]; }});
+  add(parts.feeding, {"in", "1", "with [[feed]]: particles that have entered since the start",
+                      [](const Told& t, std::size_t j) { return t.number_in[j]; }});
+  add(parts.feeding,
+      {"in", "kg", "with [[feed]]: their mass", [](const Told& t, std::size_t j) { return t.mass_in[j]; }});
   return table;
 }
 

@@ -14,11 +14,13 @@ struct Told {
   double most_solids = 0;                    ///< greatest phi of the fluid's cells
   double fluid_mass = 0;                     ///< of a compressible fluid, kg
   std::vector<double> number_out, mass_out;  ///< that have left since the start, kg, [species]
+  std::vector<double> number_in, mass_in;    ///< that have entered since the start, kg, [species]
 };
 
 /// What a run has.
 struct Parts {
   bool ledger = false, outflow = false, fluid = false;
+  bool feeding = false;       ///< particles are fed
   bool compressible = false;  ///< the fluid is
 };
 

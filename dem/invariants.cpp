@@ -30,6 +30,8 @@ RunStart read_run_start(const core::Checkpoint& checkpoint, const Model& model) 
   RunStart start{0, numbers_of(model)};
   if (const Outflow* outflow = model.outflow())
     for (std::size_t j = 0; j < start.number.size(); ++j) start.number[j] += outflow->number[j];
+  if (const Feeding* feeding = model.feeding())
+    for (std::size_t j = 0; j < start.number.size(); ++j) start.number[j] -= feeding->number[j];
   std::vector<double> values(start.number.begin(), start.number.end());
   values.push_back(0);
   core::on_first(model.ranks(), [&] {
@@ -88,7 +90,8 @@ void Invariants::see(const Totals& now, const std::vector<std::int64_t>& number,
   if (ledger_) worst_[which++].keep(energy_miss(now), model_.time());
   for (std::size_t j = 0; j < number.size(); ++j) {
     const std::int64_t left = model_.outflow() != nullptr ? model_.outflow()->number[j] : 0;
-    worst_[which].keep(double(std::abs(number[j] + left - start_.number[j])), model_.time(),
+    const std::int64_t come = model_.feeding() != nullptr ? model_.feeding()->number[j] : 0;
+    worst_[which].keep(double(std::abs(number[j] + left - come - start_.number[j])), model_.time(),
                        "species " + model_.materials().species()[j].name);
   }
   if (++which < worst_.size()) worst_[which].keep(fluid->mass_error(), model_.time());

@@ -121,6 +121,7 @@ Totals TotalsOfRanks::totals() const {
   totals.dissipated = units(4) * unit;
   totals.work = units(5) * unit;
   if (model_.outflow() != nullptr) totals.carried_out = model_.outflow()->energy.units() * unit;
+  if (model_.feeding() != nullptr) totals.carried_in = model_.feeding()->energy.units() * unit;
   constexpr double sums_of_particles = 3;  // kinetic, rotational, potential: each cut to parts of a unit
   const double cut = sums_of_particles * double(model_.particle_count()) * unit / EnergySum::parts;
   totals.rounding = rounding_of_places(units(9) * unit, model_.steps()) + cut;

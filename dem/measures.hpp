@@ -17,6 +17,7 @@ struct Totals {
   double potential = 0;       ///< against the origin of the box; 0 without gravity
   double dissipated = 0;      ///< since the start, by dashpots and friction; 0 without dem.ledger
   double carried_out = 0;     ///< by particles that have left, since the start; 0 where nothing can
+  double carried_in = 0;      ///< by particles that have entered, since the start; 0 where none are fed
   double work = 0;            ///< of a fluid, or of a sheared box's flow, since the start; 0 without dem.ledger
   std::int64_t contacts = 0;  ///< of particles with each other and with walls
   double max_overlap = 0;     ///< m
@@ -26,7 +27,7 @@ struct Totals {
   double rounding = 0;        ///< of rounding_of_places(), and of what sums cut off, J
 
   [[nodiscard]] double sum() const {
-    return kinetic + rotational + elastic + potential + dissipated + carried_out - work;
+    return kinetic + rotational + elastic + potential + dissipated + carried_out - carried_in - work;
   }
 };
 

@@ -68,6 +68,8 @@ Model::Model(const core::Scene& scene, core::Timers& timers, std::shared_ptr<con
 /// A sheared box has no room for a fluid's motion: there it is the flow.
 void Model::make_parts(const std::vector<Particle>& all) {
   const bool sheared = box_.shear_rate != 0;
+  const bool fed = is_fed(scene_);
+  if (fed) feeding_ = std::make_unique<Feeding>(scene_, materials_, box_, skin_, count_);
   if (box_.opening) outflow_ = std::make_unique<Outflow>(materials_.greatest_diameter(), scene_.species.size());
   if (scene_.dem.ledger) {
     ledger_ = std::make_unique<Ledger>(laws_, laws_.memory_size(), limits_.synchronised, energy_unit_, force_unit_);
@@ -79,18 +81,20 @@ void Model::make_parts(const std::vector<Particle>& all) {
     if (sheared) pair_forces_.keep(*joined_work_);
   }
   const SolidsVolume solids = volume_of(all, scene_.species.size());
+  const Content content = greatest_content(box_, materials_);
   if (has_affine_drag(scene_))
     sheared_ = std::make_unique<AffineDrag>(scene_, materials_, solids, box_.size, force_unit_, energy_unit_);
   if (scene_.fluid.present() && !sheared) {
-    coupling_ =
-        std::make_unique<Coupling>(scene_, materials_, ranks_, timers_, Coupling::Units{force_unit_, energy_unit_},
-                                   limits_.dt, limits_.greatest_speed, solids.all, count_);
+    coupling_ = std::make_unique<Coupling>(
+        scene_, materials_, ranks_, timers_, Coupling::Units{force_unit_, energy_unit_}, limits_.dt,
+        limits_.greatest_speed, fed ? std::max(solids.all, content.volume) : solids.all,
+        fed ? std::max(count_, std::int64_t(fluid::fewest_of_a_bed)) : count_);
     coupling_->motion().load.resize(particles_.owned);
     coupling_->sides().rows().clear(particles_.owned);
   }
   around_ = {coupling_ ? &coupling_->motion() : nullptr, sheared_.get()};
-  for (KeptPart* part : std::initializer_list<KeptPart*>{outflow_.get(), ledger_.get(), joined_work_.get(),
-                                                         sheared_.get(), coupling_.get()})
+  for (KeptPart* part : std::initializer_list<KeptPart*>{feeding_.get(), outflow_.get(), ledger_.get(),
+                                                         joined_work_.get(), sheared_.get(), coupling_.get()})
     if (part != nullptr) kept_.push_back(part);
 }
 
@@ -107,6 +111,7 @@ CountedEnergy Model::counted_energy() const {
 void Model::measure(const std::vector<Particle>& all) {
   double mass = 0;
   for (const Particle& p : all) mass += 1 / p.motion.inverse_mass;
+  if (is_fed(scene_)) mass = std::max(mass, greatest_content(box_, materials_).mass);
   const double length = std::max({box_.size[0], box_.size[1], box_.size[2]});
   const double weight = std::hypot(gravity_[0], gravity_[1], gravity_[2]) * length;  // m2/s2
   const double speed = limits_.greatest_speed;
@@ -154,6 +159,20 @@ void Model::step(double stop) {
   reported_ = std::abs(clock() - stop) < 0.5 * limits_.dt ? stop : clock();
   look_ahead();
   if (ahead_ == Ahead::trouble) stop_in_trouble();
+  if (feeding_ && (!coupling_ || coupling_->due(steps_)) && feeding_->due(clock())) let_in();
+}
+
+/// Particles that are fed enter at the end of a step; with a fluid, of one of its steps.
+void Model::let_in() {
+  const auto scope = timers_.scope("neighbours");
+  const std::int64_t entered = feeding_->choose(*this, clock());
+  if (entered == 0) return;
+  const bool fast = ahead_ == Ahead::fast;
+  count_ += entered;
+  rebuild();
+  if (coupling_) coupling_->take_in(particles_, feeding_->next_id() - entered);
+  look_ahead();
+  if (fast) ahead_ = Ahead::fast;
 }
 
 /// Half kick and drift, forces, half kick.
@@ -279,6 +298,7 @@ void Model::list_pairs(KeptContacts kept) {
   particles_.resize(particles_.owned);
   if (coupling_) coupling_->send_ahead(exchange_, particles_);
   exchange_.migrate(particles_, kept);
+  if (feeding_) feeding_->enter(particles_, ranks_ ? &exchange_.decomposition() : nullptr, ranks_ ? ranks_->rank() : 0);
   particles_.arrange(search_.order(particles_));
   if (coupling_) coupling_->settle_in(particles_);
   exchange_.choose_ghosts(particles_);
@@ -315,6 +335,7 @@ Work Model::work() const {
   work.steps = std::uint64_t(steps_);
   work.particle_steps = work.steps * std::uint64_t(count_);
   if (outflow_) work.particle_steps += std::uint64_t(outflow_->steps);
+  if (feeding_) work.particle_steps -= std::uint64_t(feeding_->steps);
   std::array<double, 3> sums{double(pair_forces_.pair_checks()), double(pair_forces_.contact_steps()),
                              double(work.candidates)};
   core::add_over_ranks(ranks_.get(), sums);

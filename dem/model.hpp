@@ -18,6 +18,7 @@
 #include "dem/coupling/coupling.hpp"
 #include "dem/effects.hpp"
 #include "dem/energy_sum.hpp"
+#include "dem/feeding.hpp"
 #include "dem/joined_work.hpp"
 #include "dem/kept_part.hpp"
 #include "dem/kept_state.hpp"
@@ -107,6 +108,8 @@ class Model : public core::Simulation {
   [[nodiscard]] bool synchronised() const { return verlet_.synchronised(); }
   /// In the box now.
   [[nodiscard]] std::int64_t particle_count() const { return count_; }
+  /// Null where nothing is fed.
+  [[nodiscard]] const Feeding* feeding() const { return feeding_.get(); }
   /// Null where nothing can leave.
   [[nodiscard]] const Outflow* outflow() const { return outflow_.get(); }
   /// Where the images of the particles are now.
@@ -136,6 +139,7 @@ class Model : public core::Simulation {
   void shorten_step();
   void set_step_for(double began, std::int64_t began_at, double speed);
   void rebuild();
+  void let_in();
   void list_pairs(KeptContacts kept);
   void find_forces(double dt);
   /// Time that the state belongs to, s.
@@ -157,6 +161,7 @@ class Model : public core::Simulation {
   Vector gravity_;
   FixedPoint force_unit_, torque_unit_, energy_unit_, momentum_unit_;
   // What only some scenes have; null: absent.
+  std::unique_ptr<Feeding> feeding_;
   std::unique_ptr<Outflow> outflow_;
   std::unique_ptr<Ledger> ledger_;
   std::unique_ptr<JoinedWork> joined_work_;

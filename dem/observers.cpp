@@ -20,8 +20,11 @@ std::vector<std::string> names_of(const Model& model) {
 
 Parts parts_of(const Model& model, bool ledger) {
   const Coupling* coupling = model.coupling();
-  return {ledger, model.outflow() != nullptr, coupling != nullptr,
-          coupling != nullptr && coupling->flow().compressible() != nullptr};
+  return {.ledger = ledger,
+          .outflow = model.outflow() != nullptr,
+          .fluid = coupling != nullptr,
+          .feeding = model.feeding() != nullptr,
+          .compressible = coupling != nullptr && coupling->flow().compressible() != nullptr};
 }
 
 std::vector<std::string> profile_names(const Model& model) {
@@ -193,12 +196,16 @@ void Observers::write_history(double time) {
 }
 
 Told Observers::told(double most_solids) const {
-  Told told{totals_, most_solids, fluid_ ? fluid_->mass() : 0, {}, {}};
-  if (const Outflow* outflow = model_.outflow())
-    for (std::size_t j = 0; j < outflow->number.size(); ++j) {
-      told.number_out.push_back(double(outflow->number[j]));
-      told.mass_out.push_back(told.number_out[j] * model_.materials().species()[j].mass);
+  Told told{totals_, most_solids, fluid_ ? fluid_->mass() : 0, {}, {}, {}, {}};
+  const auto tell = [this](const std::vector<std::int64_t>& passed, std::vector<double>& number,
+                           std::vector<double>& mass) {
+    for (std::size_t j = 0; j < passed.size(); ++j) {
+      number.push_back(double(passed[j]));
+      mass.push_back(number[j] * model_.materials().species()[j].mass);
     }
+  };
+  if (const Outflow* outflow = model_.outflow()) tell(outflow->number, told.number_out, told.mass_out);
+  if (const Feeding* feeding = model_.feeding()) tell(feeding->number, told.number_in, told.mass_in);
   return told;
 }
 

@@ -18,7 +18,7 @@ std::vector<core::Rule> key_rules() {
        [](const core::Scene& scene) {
          return core::broken_if(scene.dem.kernel == core::Kernel::bilinear && scene.dem.kernel_width.has_value());
        }}};
-  return relevance::joined({rules_of_keys(), own});
+  return relevance::joined({rules_of_keys(), own, feed_rules()});
 }
 
 const std::vector<core::Rule>& model_rules() {
@@ -27,10 +27,12 @@ const std::vector<core::Rule>& model_rules() {
        "column.outlet = \"open\": polybed tfm can run it, polybed dem cannot: particles leave through dem.opening, "
        "where there is no fluid; use \"screen\", which holds them",
        [](const core::Scene& scene) { return core::broken_if(scene.column.outlet == core::Outlet::open); }},
-      {{"feed.species"},
-       "[[feed]]: polybed tfm can run it, polybed dem cannot: particles cannot enter the column yet; give them all in "
-       "[bed]",
-       [](const core::Scene& scene) { return core::broken_if(!scene.feeds.empty()); }}};
+      {{"feed.species", "fluid.name", "fluid.equation_of_state"},
+       "[[feed]] in a compressible fluid: polybed tfm can run it, polybed dem cannot: the mass of the fluid that a "
+       "particle displaces as it enters would be lost; use fluid.equation_of_state = \"incompressible\"",
+       [](const core::Scene& scene) {
+         return core::broken_if(!scene.feeds.empty() && scene.fluid.present() && scene.fluid.compressible());
+       }}};
   return all;
 }
 

@@ -11,6 +11,9 @@ namespace polybed::dem {
 /// What the keys of [dem] require, of the effects that read them and whatever effects there are.
 [[nodiscard]] std::vector<core::Rule> key_rules();
 
+/// What particles that are fed require.
+[[nodiscard]] std::vector<core::Rule> feed_rules();
+
 /// What the particles at their start require; dem::Model refuses a scene that breaks one of these.
 [[nodiscard]] std::vector<core::Rule> start_rules();
 

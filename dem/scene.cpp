@@ -69,6 +69,9 @@ double fall_height(const core::Scene& scene, const Materials& materials, const B
     for (const Particle& p : start) top = std::max(top, p.place.x[1]);
   else
     top = start_height(scene, materials, box);
+  const bool from_top = std::any_of(scene.feeds.begin(), scene.feeds.end(),
+                                    [](const core::Feed& feed) { return feed.at == core::FeedEnd::top; });
+  if (from_top) top = std::max(top, box.size[1]);
   // What leaves falls on by a diameter before it is taken out.
   return top + (box.opening ? materials.greatest_diameter() : 0);
 }
@@ -111,6 +114,7 @@ Speeds known_speeds(const core::Scene& scene, const Materials& materials, const 
   if (scene.dem.greatest_speed) return {*scene.dem.greatest_speed, *scene.dem.greatest_speed};
   double first = 0;
   for (const Particle& p : start) first = std::max(first, std::hypot(p.motion.v[0], p.motion.v[1], p.motion.v[2]));
+  for (const core::Feed& feed : scene.feeds) first = std::max(first, feed.velocity);
   const double fall = std::sqrt(first * first + 2 * scene.column.gravity * fall_height(scene, materials, box, start));
   const double shear = std::abs(box.image_speed());
   const Speeds dry{std::max(fall, shear), std::max(fall * most_passed_on(materials), shear)};
@@ -170,6 +174,16 @@ std::string no_room_for_images(const Box& box, std::size_t k, double greatest_di
              sheared ? " and, as the box is sheared, twice the skin (dem.skin)" : "") +
          (k == 2 ? "" : fmt::format(" ({})", names[k]));
 }
+
+Content greatest_content(const Box& box, const Materials& materials) {
+  const auto& species = materials.species();
+  const double volume = box.size[0] * box.size[1] * box.size[2];
+  const auto heaviest = std::max_element(species.begin(), species.end(),
+                                         [](const Species& a, const Species& b) { return a.density < b.density; });
+  return {volume, volume * heaviest->density};
+}
+
+bool is_fed(const core::Scene& scene) { return !scene.feeds.empty() && scene.column.ends != core::Boundary::periodic; }
 
 SolidsVolume volume_of(const std::vector<Particle>& particles, std::size_t species) {
   SolidsVolume volume{std::vector<double>(species, 0.0), 0};

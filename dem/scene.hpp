@@ -28,6 +28,14 @@ struct SolidsVolume {
 };
 [[nodiscard]] SolidsVolume volume_of(const std::vector<Particle>& particles, std::size_t species);
 
+/// More than any particles in a box take: what sums over particles that are fed have room for.
+struct Content {
+  double volume = 0, mass = 0;  ///< m3, kg
+};
+[[nodiscard]] Content greatest_content(const Box& box, const Materials& materials);
+/// Whether particles enter the box. One whose ends are joined, made from a case that is fed, has none.
+[[nodiscard]] bool is_fed(const core::Scene& scene);
+
 /// What particles are expected to reach, m/s.
 struct Speeds {
   double impact = 0;    ///< at which many meet others
@@ -35,7 +43,8 @@ struct Speeds {
 };
 
 /// As the case gives it; or that of the shear or of a fall, sqrt(v^2 + 2 g h) from the top of the bed as it starts with
-/// the greatest speed v there (h is the height of the box where the start does not tell more), and what the heaviest
+/// the greatest speed v there or of a feed (h is the height of the box where the start does not tell more, or where
+/// particles are fed from the top), and what the heaviest
 /// pass on to the lightest when they meet so. In a fluid both are at most twice the terminal velocity of the fastest,
 /// or v, and the inflow, or four times what the inflow becomes between packed particles. 0 if nothing tells it.
 /// \param start  the particles, or some as fast as any; the places matter of a list alone

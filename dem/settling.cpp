@@ -49,6 +49,7 @@ core::Scene falling(core::Scene scene, double step) {
   scene.dem.opening.reset();
   scene.inlet.superficial_velocity.clear();
   scene.jets.clear();
+  scene.feeds.clear();
   core::set_restitution(scene, dull);
   for (core::ContactPair& pair : scene.contact_pairs) pair.restitution.reset();
   return scene;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -200,6 +201,21 @@ void Coupling::advance(Particles& particles, double t) {
   take_fields();
   forces_.find(particles, gather_, motion_.load, own());
   sides_.refresh(particles, gather_, motion_.load);
+  relax(particles);
+}
+
+void Coupling::take_in(const Particles& particles, std::int64_t first) {
+  collect(particles);
+  take_fields();
+  const std::vector<FluidLoad> loads = motion_.load;
+  const SideRows rows = sides_.rows();
+  forces_.find(particles, gather_, motion_.load, own());
+  sides_.begin(particles, gather_, motion_.load);
+  for (std::size_t i = 0; i < particles.owned; ++i) {
+    if (particles.id[i] >= first) continue;
+    motion_.load[i] = loads[i];
+    std::copy_n(rows.of(i), rows.width, sides_.rows().of(i));
+  }
   relax(particles);
 }
 

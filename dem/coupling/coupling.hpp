@@ -60,6 +60,9 @@ class Coupling final : public KeptPart {
   /// Before particles change ranks and places, and after.
   void send_ahead(Exchange& exchange, const Particles& particles);
   void settle_in(const Particles& particles);
+  /// Particles that have entered since the end of a step of the fluid: their volumes count from now on, and forces act
+  /// on them; nothing changes for the others. Collective. \param first  least id of those that have entered
+  void take_in(const Particles& particles, std::int64_t first);
   /// What a particle costs over what it costs to be in a contact: 5.5 was measured (docs/theory/parallel.md).
   static constexpr std::int32_t work_of_particle = 5;
   /// Whether the particles' steps may become shorter after so many: only between steps of the fluid, and without side

@@ -50,7 +50,7 @@ def draw_steps(axes, run):
 
 
 LEDGER = ("kinetic_J", "rotational_J", "elastic_J", "potential_J", "dissipated_J", "work_J")
-CARRIED_OUT = "carried_out_J"  # there only where particles can leave
+CARRIED = {"carried_out_J": 1, "carried_in_J": -1}  # there only where particles can leave, or are fed
 
 
 def draw_energies(axes, run):
@@ -65,16 +65,16 @@ def draw_energies(axes, run):
 
 
 def draw_ledger(axes, run):
-    """What has become of the energy since the start: stored, dissipated and carried out, less the work done, is 0."""
+    """Energy since the start: stored, dissipated and carried out, less the work done and what was carried in, is 0."""
     history = run.history
-    carried = [CARRIED_OUT] if CARRIED_OUT in history else []
+    carried = [column for column in CARRIED if column in history]
     since = {column: history[column] - history[column][0] for column in (*LEDGER, *carried)}
     stored = sum(since[column] for column in LEDGER[:4])
     lines = {"stored": stored, "of it potential": since["potential_J"], "dissipated": since["dissipated_J"],
-             "work": since["work_J"], **{"carried out": since[column] for column in carried}}
+             "work": since["work_J"], **{column[:-2].replace("_", " "): since[column] for column in carried}}
     for n, (name, values) in enumerate(lines.items()):
         axes.plot(history["time_s"], values, label=name, linewidth=1, **species_line(n))
-    left = stored + since["dissipated_J"] - since["work_J"] + sum(since[column] for column in carried)
+    left = stored + since["dissipated_J"] - since["work_J"] + sum(CARRIED[column] * since[column] for column in carried)
     axes.plot(history["time_s"], left, color="black", linewidth=0.8, label="does not close")
     axes.set_ylabel("since the\nstart (J)")
     axes.legend(loc="center left", bbox_to_anchor=(1.01, 0.5), fontsize=8)

@@ -1,0 +1,203 @@
+#include "dem/feeding.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <optional>
+
+#include "closures/sphere.hpp"
+#include "core/numerics/random.hpp"
+#include "core/output/checkpoint.hpp"
+#include "dem/model.hpp"
+
+namespace polybed::dem {
+
+namespace {
+
+/// Random places drawn for a particle before it waits.
+constexpr int most_tries = 100;
+
+/// Random sequences of a feed: along x and along z. Those of the start have lower numbers.
+constexpr std::uint64_t first_sequence = 1000;
+std::uint64_t sequence(std::size_t feed, std::uint64_t axis) { return first_sequence + 2 * feed + axis; }
+
+/// Where the centres of a feed's particles may be. They enter a hair away from the wall.
+std::pair<Vector, Vector> centres(const core::Feed& feed, const Box& box, double radius) {
+  constexpr double hair = 1 + 0x1p-20;
+  Vector low{}, high = box.size;
+  for (const std::size_t k : {0, 2}) {
+    const std::size_t n = k / 2;
+    const bool whole = n >= feed.from.size();
+    if (whole && box.periodic[k]) continue;
+    low[k] = (whole ? 0 : feed.from[n]) + radius;
+    high[k] = std::max(low[k], (whole ? box.size[k] : feed.to[n]) - radius);
+  }
+  low[1] = high[1] = feed.at == core::FeedEnd::top ? box.size[1] - hair * radius : hair * radius;
+  return {low, high};
+}
+
+double area_of(const core::Feed& feed, const Box& box) {
+  const auto width = [&](std::size_t n, std::size_t k) {
+    return n < feed.from.size() ? feed.to[n] - feed.from[n] : box.size[k];
+  };
+  return width(0, 0) * width(1, 2);
+}
+
+}  // namespace
+
+Feeding::Feeding(const core::Scene& scene, const Materials& materials, const Box& box, double skin, std::int64_t count)
+    : number(materials.species().size(), 0), materials_(materials), seed_(scene.bed.seed), next_id_(count) {
+  for (const core::Feed& feed : scene.feeds) {
+    const auto found = std::find_if(materials.species().begin(), materials.species().end(),
+                                    [&](const Species& s) { return s.name == feed.species; });
+    const double radius = found->radius;
+    const auto [low, high] = centres(feed, box, radius);
+    // The list is made when the fastest particles have moved by half of the skin: no more often because of feeds.
+    feeds_.push_back({std::int32_t(found - materials.species().begin()), feed.at == core::FeedEnd::top, feed.velocity,
+                      0.5 * skin / feed.velocity, fluid::Ramp(feed.superficial_velocity),
+                      area_of(feed, box) / closures::sphere_volume(radius), low, high});
+  }
+}
+
+/// A millionth of a particle early: a time at which the next one is just called for is rounded either way.
+std::int64_t Feeding::Feed::called_for(double t) const {
+  return std::int64_t(std::floor(rate.integral(t) * per_height + 1e-6));
+}
+
+bool Feeding::Feed::due(double t) const { return t - tried_at >= pause && called_for(t) > entered; }
+
+bool Feeding::due(double t) const {
+  return std::any_of(feeds_.begin(), feeds_.end(), [t](const Feed& feed) { return feed.due(t); });
+}
+
+std::int64_t Feeding::all() const { return std::accumulate(number.begin(), number.end(), std::int64_t(0)); }
+
+std::vector<std::int64_t> Feeding::waiting() const {
+  std::vector<std::int64_t> wait(number.size(), 0);
+  for (const Feed& feed : feeds_)
+    wait[std::size_t(feed.species)] += std::max<std::int64_t>(0, feed.called_for(feed.tried_at) - feed.entered);
+  return wait;
+}
+
+std::string Feeding::warning() const {
+  std::string text;
+  const std::vector<std::int64_t> wait = waiting();
+  for (std::size_t j = 0; j < wait.size(); ++j)
+    if (wait[j] > 0)
+      text += fmt::format("{}{} of {} particles of {}", text.empty() ? "" : ", ", wait[j], wait[j] + number[j],
+                          materials_.species()[j].name);
+  if (text.empty()) return "";
+  return "[[feed]]: " + text +
+         " have found no room where they enter: raise feed.velocity, feed them through a wider part of the end, or "
+         "feed less";
+}
+
+bool Feeding::find_place(std::size_t n, const FeedStrip& strip, Place& place) {
+  Feed& feed = feeds_[n];
+  place.radius = materials_.species()[std::size_t(feed.species)].radius;
+  place.x[1] = feed.low[1];
+  for (int k = 0; k < most_tries; ++k) {
+    const auto index = std::uint64_t(feed.tries++);
+    for (const std::size_t axis : {0, 2})
+      place.x[axis] =
+          feed.low[axis] + (feed.high[axis] - feed.low[axis]) * core::uniform(seed_, sequence(n, axis / 2), index);
+    if (strip.has_room_for(place)) return true;
+  }
+  return false;
+}
+
+std::int64_t Feeding::choose(const Model& model, double t) {
+  entering_.clear();
+  std::array<std::optional<FeedStrip>, 2> strips;
+  for (std::size_t n = 0; n < feeds_.size(); ++n) {
+    Feed& feed = feeds_[n];
+    if (!feed.due(t)) continue;
+    feed.tried_at = t;
+    std::optional<FeedStrip>& strip = strips[feed.top ? 1 : 0];
+    if (!strip) strip.emplace(model, feed.top);
+    const Species& s = materials_.species()[std::size_t(feed.species)];
+    Place place;
+    for (const std::int64_t most = feed.called_for(t); feed.entered < most && find_place(n, *strip, place);) {
+      strip->add(place);
+      const Vector v{0, feed.top ? -feed.velocity : feed.velocity, 0};
+      entering_.push_back({place, {v, 1 / s.mass, {0, 0, 0}, 1 / s.inertia}, {}, next_id_++, feed.species});
+      ++feed.entered;
+      ++number[std::size_t(feed.species)];
+    }
+  }
+  for (const Particle& p : entering_) {
+    double per_mass = 0.5 * p.motion.v[1] * p.motion.v[1];
+    for (std::size_t k = 0; k < 3; ++k) per_mass -= model.gravity()[k] * p.place.x[k];
+    energy.add(per_mass / p.motion.inverse_mass * model.energy_unit().per_unit);
+  }
+  steps += model.steps() * std::int64_t(entering_.size());
+  return std::int64_t(entering_.size());
+}
+
+void Feeding::enter(Particles& particles, const Decomposition* decomposition, int rank) {
+  for (const Particle& p : entering_)
+    if (decomposition == nullptr || decomposition->owner(p.place.x) == rank) particles.add(p);
+  particles.owned = particles.size();
+  entering_.clear();
+}
+
+void Feeding::write(core::Checkpoint& checkpoint, const Particles&, const core::Ranks*) const {
+  for (const char* name : {"feed_entered", "feed_tries", "feed_tried_at"}) checkpoint.arrays[name].clear();
+  for (const Feed& feed : feeds_) {
+    checkpoint.arrays["feed_entered"].push_back(double(feed.entered));
+    checkpoint.arrays["feed_tries"].push_back(double(feed.tries));
+    checkpoint.arrays["feed_tried_at"].push_back(feed.tried_at);
+  }
+  checkpoint.integers["feed_next_id"] = next_id_;
+  checkpoint.integers["feed_steps"] = steps;
+  checkpoint.integers["feed_energy"] = energy.whole();
+  checkpoint.integers["feed_energy_part"] = energy.part();
+}
+
+/// At the start of another run nothing has entered, and ids go on behind the last one that the particles have.
+void Feeding::read(const Restored& from) {
+  const std::size_t count = feeds_.size();
+  std::int64_t free_id = 0;
+  for (const Particle& p : from.all) free_id = std::max(free_id, p.id + 1);
+  std::vector<std::int64_t> whole(2 * count + 4, 0);
+  std::vector<double> tried(count, never);
+  core::on_first(from.ranks, [&] {
+    const core::Checkpoint& checkpoint = from.checkpoint;
+    whole.end()[-4] = free_id;
+    if (!from.same_run || !checkpoint.arrays.contains("feed_entered")) return;
+    const auto take = [&](const char* name, std::int64_t* out) {
+      const std::vector<double>& stored = checkpoint.array(name);
+      if (stored.size() != count ||
+          std::any_of(stored.begin(), stored.end(), [](double n) { return !(n >= 0 && n < 9e15); }))
+        core::refuse_checkpoint(fmt::format("{} is not a number for each [[feed]]", name));
+      std::transform(stored.begin(), stored.end(), out, [](double n) { return std::int64_t(n); });
+    };
+    take("feed_entered", whole.data());
+    take("feed_tries", whole.data() + count);
+    if (checkpoint.array("feed_tried_at").size() != count)
+      core::refuse_checkpoint("feed_tried_at is not a time for each [[feed]]");
+    tried = checkpoint.array("feed_tried_at");
+    whole.end()[-4] = checkpoint.count("feed_next_id");
+    if (whole.end()[-4] < free_id) core::refuse_checkpoint("feed_next_id is the number of a particle that is there");
+    whole.end()[-3] = checkpoint.count("feed_steps");
+    whole.end()[-2] = checkpoint.integer("feed_energy");
+    whole.end()[-1] = checkpoint.integer("feed_energy_part");
+  });
+  if (!core::is_first(from.ranks)) std::fill(whole.begin(), whole.end(), 0);
+  core::add_over_ranks(from.ranks, whole);
+  core::take_from_first(from.ranks, tried);
+  std::fill(number.begin(), number.end(), 0);
+  for (std::size_t n = 0; n < count; ++n) {
+    feeds_[n].entered = whole[n];
+    feeds_[n].tries = whole[count + n];
+    feeds_[n].tried_at = tried[n];
+    number[std::size_t(feeds_[n].species)] += whole[n];
+  }
+  next_id_ = whole.end()[-4];
+  steps = whole.end()[-3];
+  energy = EnergySum(whole.end()[-2], whole.end()[-1]);
+}
+
+}  // namespace polybed::dem

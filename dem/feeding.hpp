@@ -1,0 +1,82 @@
+// What enters the box through [[feed]]: how many particles and when, where, and what has come in.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/case/scene.hpp"
+#include "dem/box.hpp"
+#include "dem/contacts/materials.hpp"
+#include "dem/energy_sum.hpp"
+#include "dem/feed_strip.hpp"
+#include "dem/kept_part.hpp"
+#include "dem/particles.hpp"
+#include "fluid/inlet.hpp"
+
+namespace polybed::dem {
+
+class Decomposition;
+
+/// By a time t a feed calls for as many particles as the volume that it has let in fills, rounded down: what is left
+/// over counts on. A particle enters in the step in which it is called for, just inside the end, at the feed's velocity
+/// and at a random place where it overlaps nothing. One that finds no place waits, and is tried again later. Feeds that
+/// call for particles more often than the list of pairs has to be made for their speed let them in several at a time.
+///
+/// The same on every rank, and on any number of ranks to the bit: places come from bed.seed, the feed and a number.
+class Feeding final : public KeptPart {
+ public:
+  /// \param skin  of the list of pairs, m  \param count  of particles at the start, numbered from 0
+  Feeding(const core::Scene& scene, const Materials& materials, const Box& box, double skin, std::int64_t count);
+
+  std::vector<std::int64_t> number;  ///< that have entered, of each species, since the start
+  std::int64_t steps = 0;            ///< that the run had taken when they entered, summed over them
+  /// What they brought with them, of motion and gravity, in the unit of energy.
+  EnergySum energy;
+
+  /// Ids go on behind the last one.
+  [[nodiscard]] std::int64_t next_id() const { return next_id_; }
+  /// Particles of all species.
+  [[nodiscard]] std::int64_t all() const;
+  /// That have found no room when places were last drawn for them, of each species.
+  [[nodiscard]] std::vector<std::int64_t> waiting() const;
+  /// What is said of those that wait; empty: none does.
+  [[nodiscard]] std::string warning() const;
+
+  /// Whether a particle is to be let in at a time, s.
+  [[nodiscard]] bool due(double t) const;
+  /// Decides who enters at a time, counts them, and returns how many there are. Collective.
+  std::int64_t choose(const Model& model, double t);
+  /// Adds those of them that lie in this rank's part to its own. \param decomposition  null: all of them
+  void enter(Particles& particles, const Decomposition* decomposition, int rank);
+
+  void write(core::Checkpoint& checkpoint, const Particles& particles, const core::Ranks* ranks) const override;
+  void read(const Restored& from) override;
+
+ private:
+  struct Feed {
+    std::int32_t species;
+    bool top;
+    double velocity;    ///< inwards, m/s
+    double pause;       ///< least time between two times that particles enter, s
+    fluid::Ramp rate;   ///< superficial velocity of the solids, m/s
+    double per_height;  ///< particles in a volume as high as one metre on the feed's area
+    Vector low, high;   ///< of centres, m
+    std::int64_t entered = 0;
+    std::int64_t tries = 0;   ///< random places drawn so far
+    double tried_at = never;  ///< when places were last drawn, s
+
+    [[nodiscard]] std::int64_t called_for(double t) const;
+    [[nodiscard]] bool due(double t) const;
+  };
+  static constexpr double never = -1e30;
+  [[nodiscard]] bool find_place(std::size_t n, const FeedStrip& strip, Place& place);
+
+  const Materials& materials_;
+  std::vector<Feed> feeds_;
+  std::uint64_t seed_;
+  std::int64_t next_id_;
+  std::vector<Particle> entering_;
+};
+
+}  // namespace polybed::dem
