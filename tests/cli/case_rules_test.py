@@ -3,6 +3,7 @@
 import re
 
 import program
+from feed_rules import FEEDS, feeds
 from layer_rules import COUNTED, LAYERS
 from program import DONE, WRONG_CASE, Scratch, run, strict_json
 
@@ -49,10 +50,6 @@ def jets(*parts):
     return "jet=[" + ", ".join(f"{{from={a}, to={b}, superficial_velocity=0.1}}" for a, b in parts) + "]"
 
 
-def feeds(*parts, species="fine", velocity=1):
-    return "feed=[" + ", ".join(f'{{species="{species}", velocity={velocity}, superficial_velocity=0.1{part}}}' for part in parts) + "]"
-
-
 def pairs(*between):
     return "contact_pair=[" + ", ".join(f"{{between={list(names)}}}".replace("'", '"') for names in between) + "]"
 
@@ -86,8 +83,6 @@ KEYS = {
     "jet.from and jet.to have {} and {} numbers: {} here": [jets(([0.01, 0], [0.02]))],
     "a jet from {} to {} m does not lie on the bottom, 0 to {} m": [jets(([0.01], [0.07]))],
     "two jets overlap: [[jet]] number {} and {}": [jets(([0.01], [0.03]), ([0.02], [0.04]))],
-    "feed.from and feed.to have {} and {} numbers: {} here": [feeds(", from=[0.02]")],
-    "a feed from {} to {} m does not lie on the bottom, 0 to {} m": [feeds(", from=[0.02], to=[0.01]")],
     "wall.from and wall.to have {} and {} numbers: 2 here, x and y": ["wall=[{from=[0.01], to=[0.02, 0.01]}]"],
     "[[wall]] number {} does not lie in the column, {} m wide and {} m high": ["wall=[{from=[0, 0.1], to=[0.5, 0.01]}]"],
     "[[wall]] number {} has no length: its ends are one point": ["wall=[{from=[0.01, 0.01], to=[0.01, 0.01]}]"],
@@ -96,10 +91,6 @@ KEYS = {
         ('column.sides = "periodic" would end it at the side; use "wall"', ["column.sides=periodic"]),
         ('column.ends = "periodic" would end it at the bottom; use "wall"', ["column.ends=periodic"]),
         ('bed.start = "random" would place particles on both sides of it; use "mixed"', ["bed.start=random"]))},
-    'feed.species = "{}": no such species': [feeds("", species="fin")],
-    "a feed of {} of {} m/s at a velocity of {} m/s would be denser than the settled bed: raise feed.velocity above {} m/s": [
-        feeds("", velocity=0.1)],
-    "two feeds of {} overlap: [[feed]] number {} and {}": [feeds("", ", from=[0.02], to=[0.03]")],
     'dem.opening = {} m: particles cannot leave a column with a fluid; set fluid.name = "none"': ["dem.opening=0.01"],
     'dem.opening = {} m: column.ends = "periodic" leaves no bottom to open': ["dem.opening=0.01", JOINED],
     "dem.opening = {} m: it must be narrower than the bottom, which is {} m {}": ["dem.opening=0.06"],
@@ -123,6 +114,7 @@ KEYS = {
     "bed.start_solids_fraction = {} is denser than the settled bed, {}": ["bed.start_solids_fraction=0.7"],
     "the bed at its start is {} m high, the column {} m: enlarge column.size": ["bed.static_height=0.3"],
     **LAYERS,
+    **FEEDS,
     'bed.start = "{}": no such file in the working directory or beside the case file': [*COUNTED, "bed.start=list:none.csv"],
     **{f'{what} cannot act: fluid.name = "none"': [DRY, setting] for what, setting in (
         ("inlet.superficial_velocity", "inlet.superficial_velocity=0.1"), ("[[jet]]", jets(([0.01], [0.02]))),
@@ -181,7 +173,8 @@ ONE_MODEL = {
     'column.gravity_direction other than down with bed.start = "settled"' + TFM_CANNOT: [*NO_FLUID, TILTED, "bed.start=settled"],
     'column.outlet = "open": polybed tfm can run it, polybed dem cannot: particles leave through dem.opening, where there is no fluid; '
     'use "screen", which holds them': ["column.outlet=open"],
-    "[[feed]]: polybed tfm can run it, polybed dem cannot: particles cannot enter the column yet; give them all in [bed]": [feeds("")],
+    "[[feed]] in a compressible fluid: polybed tfm can run it, polybed dem cannot: the mass of the fluid that a particle displaces as it "
+    'enters would be lost; use fluid.equation_of_state = "incompressible"': [*AIR, feeds("")],
 }
 
 # For each rule that the program lists what breaks it, in words of --set. {} stands for a word of the scene.
@@ -246,8 +239,6 @@ BROKEN = {
     'bed.solids_fraction = {} must lie above tfm.frictional_onset = {} for tfm.max_packing = "auto"': ["bed.solids_fraction=0.45"],
     "tfm.max_packing = {}: the bed at its start, with a solids fraction of {}, lies more than {} above; lower bed.start_solids_fraction": [
         "bed.solids_fraction=0.68", "tfm.max_packing=0.64"],
-    "[[feed]] of {} takes every cell of the top, where none of it can leave then though column.outlet = \"open\": give feed.from and feed.to "
-    'for a part of the top, or column.outlet = "screen"': [feeds(', at="top"'), "column.outlet=open"],
     'tfm.max_packing = "auto": the bed is too light to be held at bed.solids_fraction; give a number, e.g. 0.64': [
         "species.fine.density=999.2"],
     'bed.start = "settled" needs effects.solids_stress: nothing else carries a bed of this model': [

@@ -272,11 +272,8 @@ class Check(Bed):
 
 class Refused(Bed):
     def test_what_particles_cannot_do_in_a_fluid(self):
-        feed = '[[feed]]\nspecies = "fine"\nvelocity = 1\nsuperficial_velocity = 0.1\n'
-        case = self.write("fed.toml", BED + feed)
-        told = self.dem(WRONG_CASE, "run", "--set", "column.outlet=open", case=case).stderr
+        told = self.dem(WRONG_CASE, "run", "--set", "column.outlet=open").stderr
         self.assertIn('column.outlet = "open"', told)
-        self.assertIn("[[feed]]", told)
         self.assertFalse((self.folder / "run/run.json").exists())
 
     def test_all_at_once(self):

@@ -211,11 +211,11 @@ def dropping():
 
 
 def hash_of(checkpoint):
-    """SHA-256 of places, velocities and spins by id, of the histories of all contacts, of the fluid, and of what has left."""
+    """SHA-256 of places, velocities and spins by id, of the histories of all contacts, of the fluid, and of what has left or entered."""
     with h5py.File(checkpoint) as file:
         particles = file["arrays/particles"][()].reshape(-1, 23)
         contacts = file["arrays/contacts"][()]
-        more = [file[f"arrays/{name}"][()].tobytes() for name in sorted(file["arrays"]) if name.startswith("fluid_")]
+        more = [file[f"arrays/{name}"][()].tobytes() for name in sorted(file["arrays"]) if name.startswith(("fluid_", "feed_"))]
         outflow = file["arrays/outflow"][()] if "outflow" in file["arrays"] else np.zeros(1)
         if outflow.any():
             more += [outflow.tobytes()] + [file[f"integers/outflow_{name}"][()].tobytes()

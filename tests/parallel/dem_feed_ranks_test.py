@@ -1,0 +1,64 @@
+#!/usr/bin/python3
+"""Particles that are fed on 1, 2, 3 and 4 ranks: the same bits of all of them and of what has entered, with and without a restart on
+another number of ranks."""
+import json
+import random
+
+import dem_ranks_test
+from dem_ranks_test import Scratch, main
+
+# a slot that is fed from above while it empties
+FILLING = """
+[column]
+size = ["16 mm", "24 mm"]
+cells = [4, 6]
+depth = "4 mm"
+[[species]]
+name = "a"
+diameter = "1 mm"
+density = 2500
+[bed]
+start = "list:particles.csv"
+solids_fraction = 0.6
+[[feed]]
+species = "a"
+at = "top"
+superficial_velocity = "0.15 m/s"
+velocity = "1.5 m/s"
+from = ["1 mm"]
+to = ["15 mm"]
+[dem]
+friction = 0.3
+greatest_speed = "3 m/s"
+fixed_step = "4 us"
+youngs_modulus = "20 MPa"
+opening = "7 mm"
+"""
+
+
+def above_slot():
+    """A block of 10 by 8 by 3 particles above a slot, on its way down."""
+    spread = random.Random(4)
+    return [f"a,{(1.04 * i + 3.3) * 1e-3},{(1.04 * j + 0.6) * 1e-3},{(1.3 * k + 0.7) * 1e-3},"
+            f"{spread.uniform(-0.2, 0.2)},{spread.uniform(-1.1, -0.7)},{spread.uniform(-0.2, 0.2)},0,0,0"
+            for i in range(10) for j in range(8) for k in range(3)]
+
+
+class FeedRanks(Scratch):
+    start_on, on, scene, check_same = (getattr(dem_ranks_test.DemRanks, name) for name in ("start_on", "on", "scene", "check_same"))
+
+    def test_particles_that_enter(self):
+        records = self.check_same(self.scene(FILLING, above_slot()), restart=(3, 4), numbers=(1, 2, 3, 4))
+        passed = {json.dumps([record["feed"], record["outflow"], record["energy"]["carried_in_J"]]) for record in records.values()}
+        self.assertEqual(len(passed), 1, passed)
+        self.assertEqual(records[1]["feed"]["a"], {"particles": 128, "mass_kg": records[1]["feed"]["a"]["mass_kg"], "waiting": 0})
+
+    def test_particles_that_enter_a_fluid(self):
+        feed = '[[feed]]\nspecies = "b"\nat = "top"\nsuperficial_velocity = "40 mm/s"\nvelocity = "0.2 m/s"\n'
+        case = self.scene(dem_ranks_test.WET + feed, common=dem_ranks_test.WITH_FLUID)
+        records = self.check_same(case, restart=(4, 2), numbers=(1, 2, 4), steps=dem_ranks_test.FEWER)
+        self.assertEqual(records[1]["feed"]["b"]["particles"], 17)  # 40 mm/s of 28.8 mm2 for 4 ms
+
+
+if __name__ == "__main__":
+    main()
