@@ -190,7 +190,7 @@ Table feed_table() {
                    "inlet; a velocity or a table as there")),
           key(&Feed::velocity, "velocity", dimension::velocity, above(0, 1e3), Mark::required,
               help("of the particles as they enter; superficial_velocity over it is their volume fraction, in polybed "
-                   "dem at most 0.25")),
+                   "dem at most 0.35")),
           key(&Feed::from, "from", dimension::length, range(0, 1e3),
               help("low corner of the part of the end, as of a jet; default: the whole end")),
           key(&Feed::to, "to", dimension::length, range(0, 1e3), help("high corner")),

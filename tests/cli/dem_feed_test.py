@@ -103,8 +103,8 @@ class Feed(Scratch):
             self.assertEqual((whole / "history.csv").read_text(), (cut / "history.csv").read_text())
 
     def test_particles_without_room_are_reported(self):
-        text = FED.replace('opening = "5 mm"', "").replace('"30 mm"', '"14 mm"').replace("cells = [6, 30]", "cells = [6, 14]")
-        done = self.ends(DONE, "dem", self.write("full.toml", text), "--json", "--until", "0.2 s", "-o", self.folder / "full")
+        text = FED.replace('opening = "5 mm"', "").replace('"30 mm"', '"10 mm"').replace("cells = [6, 30]", "cells = [6, 10]")
+        done = self.ends(DONE, "dem", self.write("full.toml", text), "--json", "--until", "0.25 s", "-o", self.folder / "full")
         record = strict_json(done.stdout)
         self.assertGreater(record["feed"]["fine"]["waiting"], 0)
         self.assertTrue([line for line in record["warnings"] if "have found no room where they enter" in line], record["warnings"])

@@ -19,5 +19,5 @@ FEEDS = {
     "[[feed]] of {}: from {} to {} m there is less room than a particle needs, {} m: move feed.from and feed.to apart": [
         feeds(", from=[0.02], to=[0.0205]")],
     "[[feed]] of {}: particles that fill {} of the volume in which they enter find no random places, which takes at most {}: raise "
-    "feed.velocity to {} m/s, or feed less": [feeds("", velocity=0.3)],
+    "feed.velocity to {} m/s, or feed less": [feeds("", velocity=0.25)],
 }

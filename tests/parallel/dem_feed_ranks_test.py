@@ -54,7 +54,7 @@ class FeedRanks(Scratch):
         self.assertEqual(records[1]["feed"]["a"], {"particles": 128, "mass_kg": records[1]["feed"]["a"]["mass_kg"], "waiting": 0})
 
     def test_particles_that_enter_a_fluid(self):
-        feed = '[[feed]]\nspecies = "b"\nat = "top"\nsuperficial_velocity = "40 mm/s"\nvelocity = "0.2 m/s"\n'
+        feed = '[[feed]]\nspecies = "b"\nat = "top"\nsuperficial_velocity = "40 mm/s"\nvelocity = "0.25 m/s"\n'
         case = self.scene(dem_ranks_test.WET + feed, common=dem_ranks_test.WITH_FLUID)
         records = self.check_same(case, restart=(4, 2), numbers=(1, 2, 4), steps=dem_ranks_test.FEWER)
         self.assertEqual(records[1]["feed"]["b"]["particles"], 17)  # 40 mm/s of 28.8 mm2 for 4 ms
