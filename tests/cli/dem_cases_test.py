@@ -61,6 +61,20 @@ class SettledBed(Cases):
         self.assertLess(rows["bed_height_m"][-1], 0.8 * rows["bed_height_m"][0])
 
 
+class FedHopper(Cases):
+    def test_it_is_filled_while_it_empties(self):
+        """80 mm/s of solids over 40 mm by 10 mm from 0.3 s on: 6.4 cm3 by 0.5 s, of 33.5 mm3 each."""
+        record, directory = self.dem("fed-hopper", *settings(run__until=0.5))
+        self.closes(record)
+        self.assertEqual(record["feed"]["glass"]["particles"], 190)
+        self.assertEqual(record["feed"]["glass"]["waiting"], 0)
+        self.assertGreater(record["outflow"]["glass"]["particles"], 250)
+        rows = history(directory)
+        # it empties until what is fed has fallen 0.2 m, and then fills
+        least = int(np.argmin(rows["mass_glass_kg"]))
+        self.assertGreater(rows["mass_glass_kg"][-1], 1.5 * rows["mass_glass_kg"][least])
+
+
 class ShearBox(Cases):
     def test_its_temperature_is_that_of_kinetic_theory(self):
         """Steady simple shear: production mu_s(T) gamma^2 meets dissipation(T), both after Lun, Savage, Jeffrey and Chepurniy,
