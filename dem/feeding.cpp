@@ -74,6 +74,12 @@ bool Feeding::due(double t) const {
 
 std::int64_t Feeding::all() const { return std::accumulate(number.begin(), number.end(), std::int64_t(0)); }
 
+std::vector<std::int64_t> Feeding::called_for(double t) const {
+  std::vector<std::int64_t> called(number.size(), 0);
+  for (const Feed& feed : feeds_) called[std::size_t(feed.species)] += feed.called_for(t);
+  return called;
+}
+
 std::vector<std::int64_t> Feeding::waiting() const {
   std::vector<std::int64_t> wait(number.size(), 0);
   for (const Feed& feed : feeds_)

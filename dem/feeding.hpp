@@ -38,6 +38,8 @@ class Feeding final : public KeptPart {
   [[nodiscard]] std::int64_t next_id() const { return next_id_; }
   /// Particles of all species.
   [[nodiscard]] std::int64_t all() const;
+  /// By a time, of each species.
+  [[nodiscard]] std::vector<std::int64_t> called_for(double t) const;
   /// That have found no room when places were last drawn for them, of each species.
   [[nodiscard]] std::vector<std::int64_t> waiting() const;
   /// What is said of those that wait; empty: none does.

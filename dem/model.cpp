@@ -81,14 +81,13 @@ void Model::make_parts(const std::vector<Particle>& all) {
     if (sheared) pair_forces_.keep(*joined_work_);
   }
   const SolidsVolume solids = volume_of(all, scene_.species.size());
-  const Content content = greatest_content(box_, materials_);
+  const double content = fed ? std::max(solids.all, greatest_content(box_, materials_).volume) : solids.all;
   if (has_affine_drag(scene_))
     sheared_ = std::make_unique<AffineDrag>(scene_, materials_, solids, box_.size, force_unit_, energy_unit_);
   if (scene_.fluid.present() && !sheared) {
-    coupling_ = std::make_unique<Coupling>(
-        scene_, materials_, ranks_, timers_, Coupling::Units{force_unit_, energy_unit_}, limits_.dt,
-        limits_.greatest_speed, fed ? std::max(solids.all, content.volume) : solids.all,
-        fed ? std::max(count_, std::int64_t(fluid::fewest_of_a_bed)) : count_);
+    coupling_ =
+        std::make_unique<Coupling>(scene_, materials_, ranks_, timers_, Coupling::Units{force_unit_, energy_unit_},
+                                   limits_.dt, limits_.greatest_speed, content, count_);
     coupling_->motion().load.resize(particles_.owned);
     coupling_->sides().rows().clear(particles_.owned);
   }

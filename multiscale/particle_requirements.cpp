@@ -15,6 +15,7 @@
 #include "core/print.hpp"
 #include "core/progress.hpp"
 #include "dem/effects/contact_hertz.hpp"
+#include "dem/feeding.hpp"
 #include "dem/packing.hpp"
 #include "dem/rules.hpp"
 #include "dem/scene.hpp"
@@ -127,9 +128,13 @@ std::optional<FluidNeed> fluid_need(const core::Scene& scene, const dem::Materia
   return need;
 }
 
-/// CPU time, s: of the particles, and of the fluid's steps.
-double expected_time(const ParticleRequirements& need, const ParticleSpeed& speed, double steps) {
-  const double count = double(need.count());
+std::vector<std::int64_t> fed_in(const core::Scene& scene, const dem::Materials& materials, const dem::Box& box) {
+  if (!dem::is_fed(scene)) return {};
+  return dem::Feeding(scene, materials, box, dem::skin_of(scene, materials), 0).called_for(scene.run.until);
+}
+
+/// CPU time, s: of the particles, and of the fluid's steps. \param count  of particles, in the mean
+double expected_time(const ParticleRequirements& need, const ParticleSpeed& speed, double steps, double count) {
   const double particles =
       steps * (count * (need.fluid ? speed.particle_step_in_fluid : speed.particle_step) + speed.step);
   if (!need.fluid) return particles;
@@ -169,13 +174,16 @@ ParticleRequirements particle_requirements_of(const core::Scene& scene, const Pa
   need.limits = dem::step_limits(scene, materials, laws, speeds.greatest);
   need.overlap = dem::overlap_forecast(scene, materials, *laws.normal, speeds.impact);
   need.program = core::process_memory().now + bytes_of_output;
-  need.particles = bytes_per_particle * double(need.count());
+  need.fed = fed_in(scene, materials, box);
+  // What runs out of an opening meanwhile is not known: as much as is fed.
+  const double start_count = double(need.count()), more = scene.dem.opening ? 0 : double(sum_of(need.fed));
+  need.particles = bytes_per_particle * (start_count + more);
   need.steps = std::ceil(scene.run.until / need.limits.dt);
-  need.particle_steps = need.steps * double(need.count());
+  need.particle_steps = need.steps * (start_count + 0.5 * more);
   need.fluid = fluid_need(scene, materials, need.count(), need.limits.dt, need.steps);
   if (scene.bed.start.kind == core::StartKind::settled) need.settling = dem::settling_time(scene, materials, box);
-  need.before = expected_time(need, speed, need.settling / need.limits.dt);
-  need.expected = need.before + expected_time(need, speed, need.steps);
+  need.before = expected_time(need, speed, need.settling / need.limits.dt, start_count);
+  need.expected = need.before + expected_time(need, speed, need.steps, start_count + 0.5 * more);
   need.least = need.expected / band;
   need.most = need.expected * band;
   return need;
@@ -253,6 +261,7 @@ void write_overlap(core::Json& json, const dem::OverlapForecast& overlap) {
 void write_particle_requirements(core::Json& json, const core::Scene& scene, const ParticleRequirements& need) {
   core::Json& particles = json["particles"] = core::Json::object();
   for (std::size_t j = 0; j < need.numbers.size(); ++j) particles[scene.species[j].name] = need.numbers[j];
+  for (std::size_t j = 0; j < need.fed.size(); ++j) json["fed"][scene.species[j].name] = need.fed[j];
   json["memory_MB"] = mega * need.memory();
   core::Json& memory = json["memory"] = {{"particles_MB", mega * need.particles}};
   if (need.fluid) memory["fluid_MB"] = mega * need.fluid->memory;
@@ -279,6 +288,7 @@ void print_particle_requirements(const core::Scene& scene, const ParticleRequire
   for (std::size_t j = 0; j < need.numbers.size(); ++j)
     each += fmt::format("{}{} {}", j == 0 ? "" : ", ", need.numbers[j], scene.species[j].name);
   core::print("{} particles: {}\n", need.count(), each);
+  if (!need.fed.empty()) core::print("{} more are fed\n", sum_of(need.fed));
   const std::string fluid = need.fluid ? fmt::format("fluid {:.1f}, ", mega * need.fluid->memory) : "";
   core::print("memory about {:.0f} MB: particles and contacts {:.1f}, {}program {:.0f}\n", mega * need.memory(),
               mega * need.particles, fluid, mega * need.program);

@@ -28,6 +28,7 @@ struct FluidNeed {
 
 struct ParticleRequirements {
   std::vector<std::int64_t> numbers;  ///< of each species
+  std::vector<std::int64_t> fed;      ///< of each species that enter in the run; empty: none are fed
   dem::StepLimits limits;             ///< the step and what sets it
   dem::OverlapForecast overlap;       ///< at the speed that it is made for
   double program = 0, particles = 0;  ///< memory, bytes: the program itself; what grows with the number

@@ -43,8 +43,8 @@ double width_of(const core::Scene& scene, const Materials& materials, std::int64
 /// stress, where a wake never decays, or in cells so small that a particle is most of what it sees.
 std::optional<OwnWake> own_wake_of(const core::Scene& scene, const core::Grid& grid, double width, double diameter,
                                    std::int64_t count) {
-  if (count >= std::int64_t(fluid::fewest_of_a_bed) || grid.dimensions < 3 || !core::acts(scene, "fluid_stress"))
-    return {};
+  const bool bed = is_fed(scene) || count >= std::int64_t(fluid::fewest_of_a_bed);
+  if (bed || grid.dimensions < 3 || !core::acts(scene, "fluid_stress")) return {};
   constexpr double most = 0.5;  // share of the slip
   double square = 0;
   for (const double h : grid.spacing) square += h * h / 3;

@@ -87,6 +87,12 @@ class Feed(Scratch):
         picture = self.ends(DONE, "plot", self.folder / "run", "--what", "particles,history")
         self.assertNotIn("Traceback", picture.stderr)
 
+    def test_check_counts_what_will_be_fed(self):
+        case = self.write("case.toml", FED)
+        need = strict_json(self.ends(DONE, "check", case, "--json").stdout)
+        self.assertEqual(need["fed"], {"fine": int(called_for(0.06)), "coarse": 0})
+        self.assertIn(f"{int(called_for(0.06))} more are fed", self.ends(DONE, "check", case, "--details").stdout)
+
     def test_in_a_fluid(self):
         record = strict_json(self.dem("wet", text=WET).stdout)
         _, entered = self.counts(self.folder / "wet", record)
