@@ -9,7 +9,8 @@
 namespace polybed::multiscale {
 
 /// One line for each thing that can be computed and is rarely meant: an inlet that draws fluid out, a species that
-/// floats, a checkpoint to start from that is not there, a bed that hangs, a gas faster than an incompressible one can be,
+/// floats, a checkpoint to start from that is not there, a bed that hangs, a gas faster than an incompressible one can
+/// be,
 /// spheres packed more densely than at random. \param scene  that keeps the rules
 [[nodiscard]] std::vector<std::string> scene_warnings(const core::Scene& scene);
 

@@ -147,6 +147,7 @@ def lasting(directory):
     for name in ("cpu_s", "wall_s", "cpu_s_per_simulated_s", "timers", "prediction"):
         record.pop(name, None)
     record["card"].pop("time_s")
+    record["card"]["lines"] = [line for line in record["card"]["lines"] if not line.startswith("time ")]
     return record
 
 
