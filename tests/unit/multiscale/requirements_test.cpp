@@ -24,6 +24,8 @@ TEST(NarrowPart, KeepsTheCellsAndTheBedAndNarrowsTheSides) {
   EXPECT_NEAR(part.layers[1].from[0], 0.04, 1e-15);
   EXPECT_EQ(part.layers[1].height, 0.1);
   EXPECT_EQ(narrow_part(scene, 200000).column.cells, scene.column.cells) << "what is small stays";
+  scene.bed.particles = {1000, 100};
+  EXPECT_TRUE(narrow_part(scene, 12000).bed.particles.empty()) << "of all its width; shares and height stand for them";
 }
 
 TEST(NarrowPart, IsSmallInThreeDimensionsAndForAbsurdHeights) {
