@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <exception>
-#include <limits>
 #include <utility>
 
 #include "core/error.hpp"
@@ -153,8 +152,6 @@ class ImplicitIntegrator : public Integrator {
     y_.assign(start_);
     dydt_.assign(start_rates_);
     first_step_ = h0;
-    longest_ = unlimited;
-    last_step_ = 0;
     time_ = origin_ = t;
     since_origin_ = 0;
     memory_ = IDACreate(context_);
@@ -178,30 +175,10 @@ class ImplicitIntegrator : public Integrator {
   }
 
   int try_step(double stop, double& t) {
-    const double within = std::min(stop, since_origin_ + longest_);
-    require_success(IDASetStopTime(memory_, within), "IDASetStopTime");
-    const long before = newton_failures();
-    const int flag = IDASolve(memory_, within, &t, y_, dydt_, IDA_ONE_STEP);
+    require_success(IDASetStopTime(memory_, stop), "IDASetStopTime");
+    const int flag = IDASolve(memory_, stop, &t, y_, dydt_, IDA_ONE_STEP);
     if (kept_) std::rethrow_exception(std::exchange(kept_, nullptr));
-    if (flag >= 0) limit_next_step(newton_failures() > before);
     return flag;
-  }
-
-  /// Where errors are small the library doubles steps until Newton fails, takes a quarter, and doubles again: most of
-  /// the work is for nothing. After a failure steps grow gradually from the length of the one before it.
-  /// \param failed  Newton's method, on a longer step than the last
-  void limit_next_step(bool failed) {
-    constexpr double longer = 1.05, tried = 4;  // times what was taken
-    double last = 0;
-    IDAGetLastStep(memory_, &last);
-    const bool by_doubling = failed && tried * last > 1.5 * last_step_;
-    longest_ = by_doubling ? std::max(last_step_, last) : longer * std::max(longest_, last);
-  }
-
-  [[nodiscard]] long newton_failures() const {
-    long failures = 0;
-    IDAGetNumNonlinSolvConvFails(memory_, &failures);
-    return failures;
   }
 
   void add_counts(IntegratorStatistics& s) const {
@@ -230,12 +207,10 @@ class ImplicitIntegrator : public Integrator {
   Vector y_, dydt_, atol_, id_, error_, weight_;
   std::vector<double> start_, start_rates_;       ///< of the last restart
   static constexpr std::size_t own_vectors = 10;  // these, and two of the options
-  static constexpr double unlimited = std::numeric_limits<double>::infinity();
   void* memory_ = nullptr;
   SUNLinearSolver solver_ = nullptr;
   // The library counts from the last restart: a first step must not be lost in the round-off of a late time.
   double origin_ = 0, since_origin_ = 0, time_ = 0, last_step_ = 0, first_step_ = 0;
-  double longest_ = unlimited;                     ///< that the next step may be, s
   long iterations_ = 0, fewest_ = 0, excess_ = 0;  ///< of the linear solves since the preconditioner was made
   IntegratorStatistics closed_;
   std::exception_ptr kept_;

@@ -6,6 +6,7 @@
 
 #include "tfm/max_packing.hpp"
 #include "tfm/packing_limit.hpp"
+#include "tfm/solids.hpp"
 #include "tfm/step_estimate.hpp"
 
 namespace polybed::tfm {
@@ -133,7 +134,6 @@ void FrictionalStress::charge_upwind_work(int axis, Fields& fields) const {
 }
 
 void FrictionalStress::hold_surface(Fields& fields) const {
-  constexpr double thin = 1e-5;  // less is hardly held: noise in a cell without solids has no stiffness
   const core::Grid& grid = constants_.grid;
   const double* phi = fields.solids_fraction.data();
   double *pressure = fields.stress.pressure.data(), *slope = fields.stress.slope.data();
@@ -152,7 +152,7 @@ void FrictionalStress::hold_surface(Fields& fields) const {
         const double load =
             along * along * law_.at(phi[packed], packing_of({share.data(), constants_.species()})).pressure;
         const double between = on_held ? next + 2 * under : under, whole = between + 2 * phi[c];
-        const double held = on_held ? phi[c] / (std::abs(phi[c]) + thin) : 1;
+        const double held = on_held ? phi[c] / (std::abs(phi[c]) + stress_fraction_floor) : 1;
         pressure[c] = std::max(pressure[c], held * load * phi[c] / whole);
         slope[c] = std::max(slope[c], held * (2 - held) * load * between / (whole * whole));
       }
