@@ -134,6 +134,7 @@ void FrictionalStress::charge_upwind_work(int axis, Fields& fields) const {
 }
 
 void FrictionalStress::hold_surface(Fields& fields) const {
+  constexpr double dust = 0.02;  // on a held row; a row with more still settles
   const core::Grid& grid = constants_.grid;
   const double* phi = fields.solids_fraction.data();
   double *pressure = fields.stress.pressure.data(), *slope = fields.stress.slope.data();
@@ -152,7 +153,8 @@ void FrictionalStress::hold_surface(Fields& fields) const {
         const double load =
             along * along * law_.at(phi[packed], packing_of({share.data(), constants_.species()})).pressure;
         const double between = on_held ? next + 2 * under : under, whole = between + 2 * phi[c];
-        const double held = on_held ? phi[c] / (std::abs(phi[c]) + stress_fraction_floor) : 1;
+        const double held =
+            on_held ? std::max(1 - phi[c] / dust, 0.0) * phi[c] / (std::abs(phi[c]) + stress_fraction_floor) : 1;
         pressure[c] = std::max(pressure[c], held * load * phi[c] / whole);
         slope[c] = std::max(slope[c], held * (2 - held) * load * between / (whole * whole));
       }
