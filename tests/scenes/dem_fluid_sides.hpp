@@ -59,21 +59,26 @@ class HeldShear {
   void begin() {
     drag_.find(particles, gather_, motion.load);
     sides.begin(particles, gather_, motion.load);
+    relax();
   }
   void step() {
     verlet_.begin(particles, {&motion});
     drag_.find(particles, gather_, motion.load);
     sides.find(particles, gather_, motion.load);
+    relax();
     verlet_.end(particles, {&motion});
     sides.turn(particles, motion);
     if (++steps_ % every_ != 0) return;
     drag_.find(particles, gather_, motion.load);
     sides.refresh(particles, gather_, motion.load);
+    relax();
   }
 
   static constexpr dem::FixedPoint energy{0x1p80, 0x1p-80};  ///< J
 
  private:
+  void relax() { motion.relax(particles, 0.5 * verlet_.dt()); }
+
   dem::Materials materials_;
   core::Grid grid_;
   dem::Gather gather_;
