@@ -36,6 +36,14 @@ contact = "hertz"
 magnus = "rubinow_keller"
 )";
 
+TEST(Monitor, WatchesNoShearedBox) {
+  core::Scene scene = core::parse_case(text, "case.toml", {}, all_roles(), size_classes);
+  scene.chooser.monitor = core::MonitorMode::warn;
+  EXPECT_NE(Monitor::of(scene, "dem"), nullptr);
+  scene.column.shear_rate = -2;  // it has no cells of a fluid to look at
+  EXPECT_EQ(Monitor::of(scene, "dem"), nullptr);
+}
+
 TEST(Neglected, EvaluatesTheClosureOfTheChoice) {
   core::Scene scene = core::parse_case(text, "case.toml", {}, all_roles(), size_classes);
   scene.effects.erase("magnus");
