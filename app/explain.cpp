@@ -164,7 +164,7 @@ std::vector<Meaning> meanings_of(const std::string& word, std::vector<std::strin
 void run_explain(const std::string& word, bool json) {
   std::vector<std::string> names;
   std::vector<Meaning> found = meanings_of(word, names);
-  if (found.empty()) {  // names of states and columns have no spaces; cards, which are read, have
+  if (found.empty()) {  // a card prints names of states with spaces
     std::string joined = word;
     std::replace(joined.begin(), joined.end(), ' ', '_');
     found = meanings_of(joined, names);

@@ -83,7 +83,7 @@ std::unique_ptr<const core::OutputDirectory> take_directory(const fs::path& dire
     throw core::FileError(
         fmt::format("{}: no checkpoint to resume from; leave out --resume to begin anew", directory.string()));
   auto taken = std::make_unique<const core::OutputDirectory>(directory);
-  // One that was stopped while its bed settled has left its record alone.
+  // A run that was stopped while its bed settled has written nothing but its record.
   const bool began = has_checkpoint(directory) || fs::exists(directory / "history.csv");
   if (fs::exists(directory / "run.json") && began && !options.resume && !options.force)
     throw core::CaseError(

@@ -16,7 +16,7 @@ const std::vector<Term>& terms() {
        "a higher inlet.superficial_velocity fluidises it: polybed check prints the minimum"},
       {"fluidised", "status", "the pressure drop carries at least 95 % of the weight of the bed", ""},
       {"carried_up", "status",
-       "the centre of the solids is above three quarters of the column, and the screen at the top holds them",
+       "the centre of the solids is above three quarters of the column, and the screen at the top keeps them in",
        "a lower inlet.superficial_velocity, or a higher column"},
       {"carried_out", "status",
        "less than 1 % of the solids is left, or their centre is above three quarters of a column with an open outlet",

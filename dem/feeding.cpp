@@ -19,7 +19,7 @@ namespace {
 /// Random places drawn for a particle before it waits.
 constexpr int most_tries = 100;
 
-/// Random sequences of a feed: along x and along z. Those of the start have lower numbers.
+/// Random sequences of a feed, along x and along z. The start uses lower numbers.
 constexpr std::uint64_t first_sequence = 1000;
 std::uint64_t sequence(std::size_t feed, std::uint64_t axis) { return first_sequence + 2 * feed + axis; }
 

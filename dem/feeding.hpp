@@ -49,7 +49,7 @@ class Feeding final : public KeptPart {
   [[nodiscard]] bool due(double t) const;
   /// Decides who enters at a time, counts them, and returns how many there are. Collective.
   std::int64_t choose(const Model& model, double t);
-  /// Adds those of them that lie in this rank's part to its own. \param decomposition  null: all of them
+  /// Adds the particles that enter in this rank's part of the box. \param decomposition  null: the rank has all of it
   void enter(Particles& particles, const Decomposition* decomposition, int rank);
 
   void write(core::Checkpoint& checkpoint, const Particles& particles, const core::Ranks* ranks) const override;

@@ -44,9 +44,9 @@ struct Speeds {
 
 /// As the case gives it; or that of the shear or of a fall, sqrt(v^2 + 2 g h) from the top of the bed as it starts with
 /// the greatest speed v there or of a feed (h is the height of the box where the start does not tell more, or where
-/// particles are fed from the top), and what the heaviest
-/// pass on to the lightest when they meet so. In a fluid both are at most twice the terminal velocity of the fastest,
-/// or v, and the inflow, or four times what the inflow becomes between packed particles. 0 if nothing tells it.
+/// particles are fed from the top), and what the heaviest pass on to the lightest when they meet so. In a fluid both
+/// are at most twice the terminal velocity of the fastest, or v, and the inflow, or four times what the inflow becomes
+/// between packed particles. 0 if nothing tells it.
 /// \param start  the particles, or some as fast as any; the places matter of a list alone
 [[nodiscard]] Speeds known_speeds(const core::Scene& scene, const Materials& materials, const Box& box,
                                   const std::vector<Particle>& start);

@@ -25,7 +25,7 @@ std::size_t cell_count(const core::Scene& scene) {
 void draw_in(core::Scene& scene, std::size_t axis, int cells) {
   core::Column& column = scene.column;
   const double share = double(cells) / column.cells[axis];
-  scene.bed.particles.clear();  // their amount stands in volume_share and static_height, too
+  scene.bed.particles.clear();  // volume_share and static_height give the same amount
   column.cells[axis] = cells;
   column.size[axis] *= share;
   if (axis == 1) {

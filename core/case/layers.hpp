@@ -8,7 +8,7 @@
 
 namespace polybed::core {
 
-/// Solids of one composition that stand in a box, on what lies below them.
+/// Solids of one composition that fill a box, on top of the parts below.
 struct BedPart {
   std::array<double, 2> from{0, 0}, to{1, 1};  ///< across the width and the depth of the column, as shares of them
   std::vector<double> solids;                  ///< volume of each species over the area of the part, m
@@ -19,9 +19,9 @@ struct BedPart {
   [[nodiscard]] double area() const { return (to[0] - from[0]) * (to[1] - from[1]); }
 };
 
-/// The parts of a bed at its start, in the order in which they lie on each other: those of [[layer]] for the starts
-/// "layered" and "checkpoint", those of bed.layer for "layered" without them, else the whole bed. The amount must be
-/// known: bed.particles, or bed.volume_share of every species.
+/// The parts of a bed at its start, from the bottom up: the layers of [[layer]] if the start is "layered" or
+/// "checkpoint"; without [[layer]], those of bed.layer if it is "layered"; otherwise one part, the whole bed.
+/// \pre the amount is known: bed.particles, or bed.volume_share of every species
 [[nodiscard]] std::vector<BedPart> start_parts(const Scene& scene);
 
 /// Heights of the lower and the upper face of a part, m.
@@ -32,18 +32,18 @@ struct Extent {
 /// Where parts of these heights, m, lie: each on the highest of those before it that it lies over.
 [[nodiscard]] std::vector<Extent> stacked(const std::vector<BedPart>& parts, const std::vector<double>& height);
 
-/// The same for parts as high as their solids are at the fraction of the start.
+/// The same, with the height of each part at its solids fraction at the start.
 [[nodiscard]] std::vector<Extent> stacked(const std::vector<BedPart>& parts);
 
 /// Height of the highest part, m; 0 without parts.
 [[nodiscard]] double top_of(const std::vector<Extent>& extents);
 
-/// Shares of those parts of the cross-section of a part that lie over ones before it, up to its own lower face.
+/// Share of a part's cross-section that rests on parts whose top is at the part's lower face.
 /// \param n  which  \param extents  of all
 [[nodiscard]] double supported_share(const std::vector<BedPart>& parts, const std::vector<Extent>& extents,
                                      std::size_t n);
 
-/// What of [bed] follows from the layers.
+/// Totals of the layers, for the keys of [bed].
 struct LayerTotals {
   double solids = 0;          ///< volume over the cross-section of the column, m
   std::vector<double> share;  ///< of each species in it
@@ -52,9 +52,9 @@ struct LayerTotals {
 /// \param scene  with a volume_share of every species and a solids_fraction in each layer
 [[nodiscard]] LayerTotals totals_of_layers(const Scene& scene);
 
-/// Gives each layer its volume_share and its solids_fraction, and the bed what it does not say itself: volume_share,
-/// static_height (of the same solids over the whole cross-section) and solids_fraction (of the densest layer). The
-/// keys of the layers must be sound.
+/// Fills in volume_share and solids_fraction of each layer and, where the case gives none, of the bed: volume_share,
+/// static_height (of the same solids over the whole cross-section) and solids_fraction (of the densest layer).
+/// \pre the keys of the layers are sound
 void fill_layers(Scene& scene);
 
 }  // namespace polybed::core

@@ -108,7 +108,7 @@ struct Layer {
   std::string species;                    ///< its only one; resolved to volume_share
   std::vector<double> volume_share;       ///< x_j of its solids, sums to 1
   double height = 0;                      ///< settled, m
-  std::optional<double> solids_fraction;  ///< settled; else that of the bed
+  std::optional<double> solids_fraction;  ///< settled; default: that of the bed
   std::vector<double> from, to;           ///< corners of its cross-section, m, as of a feed; empty: the column's
 };
 

@@ -85,14 +85,14 @@ double share_in(const Layer& layer, const std::vector<Species>& species, std::si
   return layer.volume_share[n];
 }
 
-/// Whether the shares of the layers, where they are given, are those of so many species; else a rule tells of it.
+/// Whether every layer that gives shares gives one for each species. A rule reports those that do not.
 bool layers_fit(const std::vector<Layer>& layers, std::size_t species) {
   return std::all_of(layers.begin(), layers.end(), [&](const Layer& layer) {
     return layer.volume_share.empty() || layer.volume_share.size() == species;
   });
 }
 
-/// Layers whose shares, or whose species, are those of the classes. \param classes  of each species of the case
+/// Divides the share of a species in each layer among its size classes. \param classes  of each species of the case
 void expand_layers(std::vector<Layer>& layers, const std::vector<Species>& given,
                    const std::vector<Expanded>& classes) {
   for (Layer& layer : layers) {
@@ -103,7 +103,7 @@ void expand_layers(std::vector<Layer>& layers, const std::vector<Species>& given
       known = known || share > 0;
       for (const double part : classes[n].share) shares.push_back(share * part);
     }
-    if (!known) continue;  // no such species, or one of the classes
+    if (!known) continue;  // unknown, which a rule reports, or a single class
     if (layer.volume_share.empty()) layer.species.clear();
     layer.volume_share = std::move(shares);
   }

@@ -96,7 +96,7 @@ void LineFile::put_back() {
   }, there{};
   if (::fstat(file_.number(), &ours) != 0) cannot("write", path_, errno);
   if (ours.st_size < size_)
-    print(stderr, "warning: {} was cut while it is being written: lines are lost\n", path_.string());
+    print(stderr, "warning: {} was truncated while the run writes it: lines are lost\n", path_.string());
   size_ = ours.st_size;
   if (::lstat(path_.c_str(), &there) == 0 && ours.st_ino == there.st_ino && ours.st_dev == there.st_dev) return;
   file_ = begun(path_, read_text(fmt::format("/proc/self/fd/{}", file_.number())));

@@ -89,7 +89,7 @@ class FluidMotion {
     Four free;  ///< what it would be without drag, m/s
   };
   /// U_f is frozen: U <- U_f + (U - U_f) exp(-kappa h) + (1 - exp(-kappa h)) a/kappa, kappa = k/M, M the mass with the
-  /// added one, a the acceleration by everything but drag. \param h  s, that of relax()
+  /// added one, a the acceleration by everything but drag. \param h  s, as in the last relax()
   [[nodiscard]] Kick kick(const Particles& particles, std::size_t i, double h) const {
     const FluidLoad& f = load[i];
     const Relaxation& r = relaxation_[i];
@@ -101,13 +101,13 @@ class FluidMotion {
     kick.dv = r.mean * (kick.free + r.x * (four_at(f.velocity) - four_at(particles.motion[i].v)));
     return kick;
   }
-  /// Finds what kicks of a time h have in common while drag and added mass stand. To be called when they have changed,
-  /// or the particles have. \param h  s
+  /// Computes the coefficients that all kicks of a time h share while drag and added mass are constant. To be called
+  /// when these, h or the particles have changed, and before the first kick. \param h  s
   void relax(const Particles& particles, double h) {
     relaxation_.resize(load.size());
     for (std::size_t i = 0; i < load.size(); ++i) relax(particles, i, h);
   }
-  /// The same of one particle, after that of all.
+  /// The same for one particle. \pre relax() has been called for all
   void relax(const Particles& particles, std::size_t i, double h) {
     const double inverse_mass = particles.motion[i].inverse_mass, share = 1 / (1 + load[i].added * inverse_mass);
     const double per_inertia = inverse_mass * share, x = load[i].drag * per_inertia * h;

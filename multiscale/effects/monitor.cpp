@@ -41,7 +41,7 @@ bool in_sample(std::int64_t number, int sample) {
 std::unique_ptr<Monitor> Monitor::of(const core::Scene& scene, const std::string& model) {
   const core::MonitorMode wish = scene.chooser.monitor;
   if (wish == core::MonitorMode::off || wish == core::MonitorMode::automatic || !scene.fluid.present()) return nullptr;
-  if (scene.column.shear_rate != 0) return nullptr;  // its flow is given, and no bed's
+  if (scene.column.shear_rate != 0) return nullptr;  // no cells of a fluid to look at
   return std::make_unique<Monitor>(scene, model);
 }
 

@@ -24,7 +24,7 @@ namespace polybed::multiscale {
 
 class Monitor {
  public:
-  /// Null if the scene asks for none, or there is no fluid, or it is a sheared box's, whose flow is given.
+  /// Null if the scene asks for none, has no fluid, or is a sheared box, whose flow is given.
   [[nodiscard]] static std::unique_ptr<Monitor> of(const core::Scene& scene, const std::string& model);
   Monitor(const core::Scene& scene, const std::string& model);
 

@@ -99,7 +99,7 @@ class Removed(Scratch):
 
     def test_rows_that_are_cut_off_are_told(self):
         told = self.meddled_with(self.folder / "cut", lambda path: os.truncate(path, path.stat().st_size // 2), False)
-        self.assertEqual(told.count("history.csv was cut while it is being written: lines are lost"), 1, told)
+        self.assertEqual(told.count("history.csv was truncated while the run writes it: lines are lost"), 1, told)
 
 
 class Damaged(Scratch):

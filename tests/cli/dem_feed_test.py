@@ -3,47 +3,19 @@
 import numpy as np
 
 import program
+from dem_opening_test import FALL
 from program import DONE, WRONG_CASE, Scratch, history, same_bits, strict_json
 
-# Two sizes that are fed over a slot, from 20 ms on, while they run out of it.
-FED = """[column]
-size = ["12 mm", "30 mm"]
-cells = [6, 30]
-depth = "3 mm"
-[fluid]
-name = "none"
-[[species]]
-name = "fine"
-diameter = "0.7 mm"
-density = 2500
-[[species]]
-name = "coarse"
-diameter = "1 mm"
-density = 2000
-[bed]
-particles = [150, 100]
-solids_fraction = 0.6
-start = "mixed"
-start_solids_fraction = 0.4
-[[feed]]
+# The slot of dem_opening_test, of a given depth, with a feed over it from 20 ms on.
+FEED = """[[feed]]
 species = "fine"
 at = "top"
 superficial_velocity = [[0, 0], ["20 ms", 0], ["20 ms", "40 mm/s"]]
 velocity = "0.3 m/s"
 from = ["2 mm"]
 to = ["10 mm"]
-[effects]
-others = "none"
-contact = "hertz_mindlin"
-[dem]
-opening = "5 mm"
-[run]
-until = "60 ms"
-[output]
-every = "15 ms"
-history_every = "5 ms"
-checkpoint_every = "15 ms"
 """
+FED = FALL.replace("[fluid]", 'depth = "3 mm"\n[fluid]').replace("[effects]", FEED + "[effects]")
 # Water that rises through beads that more of them fall into.
 WET = FED.replace('name = "none"', 'name = "water"\ntemperature = "20 degC"').replace('opening = "5 mm"', "").replace(
     "[effects]", '[inlet]\nsuperficial_velocity = "10 mm/s"\n[effects]\ndrag = "cello"').replace("cells = [6, 30]", "cells = [6, 15]")

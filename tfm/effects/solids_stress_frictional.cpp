@@ -134,7 +134,7 @@ void FrictionalStress::charge_upwind_work(int axis, Fields& fields) const {
 }
 
 void FrictionalStress::hold_surface(Fields& fields) const {
-  constexpr double dust = 0.02;  // on a held row; a row with more still settles
+  constexpr double dust = 0.02;  // solids fraction on the surface row; where more lies there, the bed still settles
   const core::Grid& grid = constants_.grid;
   const double* phi = fields.solids_fraction.data();
   double *pressure = fields.stress.pressure.data(), *slope = fields.stress.slope.data();
@@ -156,6 +156,7 @@ void FrictionalStress::hold_surface(Fields& fields) const {
         const double held =
             on_held ? std::max(1 - phi[c] / dust, 0.0) * phi[c] / (std::abs(phi[c]) + stress_fraction_floor) : 1;
         pressure[c] = std::max(pressure[c], held * load * phi[c] / whole);
+        // Without the derivative of the fade at `dust`: the slope serves the damping and the preconditioner alone.
         slope[c] = std::max(slope[c], held * (2 - held) * load * between / (whole * whole));
       }
     });

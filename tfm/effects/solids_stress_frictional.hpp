@@ -41,8 +41,8 @@ class FrictionalStress : public StressEffect {
   void charge_upwind_work(int axis, Fields& fields) const;
   /// Gives the loose row on packed solids, and what lies on it in the next, the pressure that carries it: the share of
   /// the packed row's load that its upper half is of all from the packed row's middle up. By the law alone it has none,
-  /// and its upper half, on the face above, falls for ever and drags the fluid along. Little is held of dust thinner
-  /// than what a pressure acts on: noise in a cell without solids has no stiffness.
+  /// and its upper half, on the face above, falls for ever and drags the fluid along. In the second row only
+  /// dust is held, and less the thinner it is: noise in a cell without solids has no stiffness.
   void hold_surface(Fields& fields) const;
   void add_bulk_viscosity(Fields& fields) const;
   template <class Body>

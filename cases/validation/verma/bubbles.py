@@ -1,7 +1,7 @@
 """Diameters of bubbles in horizontal planes of a run, for `polybed validate verma`.
 
-A bubble is a connected region of a plane (sides count, corners do not) with a voidage above 0.8. Its diameter is that of the circle of its area. Regions of
-fewer than three cells are left out. Planes lie at the heights of measured.csv, between two rows of cells.
+A bubble is a region of cells of a plane with a voidage above 0.8; cells belong together if they share a side. Its diameter is that of a circle with the same
+area. Regions of fewer than three cells are left out. Planes lie at the heights of measured.csv, between two rows of cells.
 """
 import numpy as np
 from scipy import ndimage
