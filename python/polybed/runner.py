@@ -150,11 +150,14 @@ class Exit(NamedTuple):
     wall: float
 
 
-def end(child: Child, late: threading.Event | None = None) -> None:
-    """Asks a child to end, which is late, and ends its group if it does not within some seconds; ranks end with the process that started
-    them."""
+def end(child: Child, ranks: int, late: threading.Event | None = None) -> None:
+    """Ends a child, which is late and of which nothing is read. One on ranks is asked to, since they end with the process that started
+    them, and its group is ended if it does not within some seconds."""
     if late:
         late.set()
+    if ranks == 1:
+        child.kill()
+        return
     child.terminate()
     try:
         child.wait(GRACE)
@@ -172,12 +175,12 @@ def run_within(seconds: float, words: Iterable[object], ranks: int, output: Path
     with open(output, "xb") as file:
         child = start(words, ranks, True, stdout=file, stderr=subprocess.STDOUT)
     left = min(max(0.0, begin + seconds - time.monotonic()), threading.TIMEOUT_MAX)
-    timer = threading.Timer(left, end, (child, late))
+    timer = threading.Timer(left, end, (child, ranks, late))
     timer.start()
     try:
         code = child.wait()
     except BaseException:
-        end(child)
+        end(child, ranks)
         raise
     finally:
         timer.cancel()
