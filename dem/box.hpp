@@ -84,6 +84,7 @@ struct Box {
   std::vector<Plate> plates;       ///< inside
   std::vector<Joint> joints;       ///< of the plates
   std::optional<Opening> opening;  ///< in the bottom; absent: it is whole
+  bool open_top = false;           ///< particles leave through the top
   double shear_rate = 0;           ///< of Lees and Edwards: d v_x/d y, 1/s; then y is periodic
   double strain_before = 0;        ///< that it has undergone before time 0
 

@@ -20,9 +20,8 @@ measures::Table<Told> history_table(const Parts& parts) {
                      "kinetic + rotational + elastic + potential + dissipated - work stays what it was",
                      [](const Told& t) { return t.totals.work; }});
   add(parts.ledger && parts.outflow, {"carried_out", "J",
-                                      "with dem.opening: energy that particles have taken out with them since the "
-                                      "start; in the sum above it counts as "
-                                      "dissipated energy does",
+                                      "where particles leave: energy that they have taken out with them since the "
+                                      "start; in the sum above it counts as dissipated energy does",
                                       [](const Told& t) { return t.totals.carried_out; }});
   add(parts.ledger && parts.feeding,
       {"carried_in", "J",
@@ -38,10 +37,11 @@ measures::Table<Told> history_table(const Parts& parts) {
   add(parts.fluid && parts.compressible,
       {"mass_fluid", "kg", "of a compressible fluid: in the column, after its last step",
        [](const Told& t) { return t.fluid_mass; }});
-  add(parts.outflow, {"out", "1", "with dem.opening: particles that have left since the start",
-                      [](const Told& t, std::size_t j) { return t.number_out[j]; }});
   add(parts.outflow,
-      {"out", "kg", "with dem.opening: their mass", [](const Told& t, std::size_t j) { return t.mass_out[j]; }});
+      {"out", "1", "with dem.opening or column.outlet = \"open\": particles that have left since the start",
+       [](const Told& t, std::size_t j) { return t.number_out[j]; }});
+  add(parts.outflow,
+      {"out", "kg", "where particles leave: their mass", [](const Told& t, std::size_t j) { return t.mass_out[j]; }});
   add(parts.feeding, {"in", "1", "with [[feed]]: particles that have entered since the start",
                       [](const Told& t, std::size_t j) { return t.number_in[j]; }});
   add(parts.feeding,

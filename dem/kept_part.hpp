@@ -1,5 +1,5 @@
-// What a checkpoint keeps of the parts of a model that only some scenes have: a fluid, a ledger, a sheared box, an
-// opening.
+// What a checkpoint keeps of the parts of a model that only some scenes have: a fluid, a ledger, a sheared box, feeds,
+// and ways out.
 #pragma once
 
 #include <span>

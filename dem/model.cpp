@@ -70,7 +70,7 @@ void Model::make_parts(const std::vector<Particle>& all) {
   const bool sheared = box_.shear_rate != 0;
   const bool fed = is_fed(scene_);
   if (fed) feeding_ = std::make_unique<Feeding>(scene_, materials_, box_, skin_, count_);
-  if (box_.opening) outflow_ = std::make_unique<Outflow>(materials_.greatest_diameter(), scene_.species.size());
+  if (box_.opening || box_.open_top) outflow_ = std::make_unique<Outflow>(box_, materials_);
   if (scene_.dem.ledger) {
     ledger_ = std::make_unique<Ledger>(laws_, laws_.memory_size(), limits_.synchronised, energy_unit_, force_unit_);
     pair_forces_.keep(*ledger_);
@@ -287,8 +287,14 @@ void Model::rebuild() {
   if (outflow_) count_ -= outflow_->count_leaving(*this);
   wrap();
   exchange_.balance(particles_, work_of(particles_, pairs_, walls_, work_of_particle()));
-  if (outflow_) outflow_->take_out(particles_);
+  if (outflow_) take_out();
   list_pairs(std::move(kept));
+}
+
+/// Particles that have left, of this rank.
+void Model::take_out() {
+  if (coupling_) coupling_->let_go(*outflow_, particles_);
+  outflow_->take_out(particles_);
 }
 
 /// Moves particles to their owners and finds anew who is near whom; contacts go with their particles.

@@ -140,6 +140,7 @@ class Model : public core::Simulation {
   void set_step_for(double began, std::int64_t began_at, double speed);
   void rebuild();
   void let_in();
+  void take_out();
   void list_pairs(KeptContacts kept);
   void find_forces(double dt);
   /// Time that the state belongs to, s.

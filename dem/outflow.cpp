@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <numeric>
 
 #include "core/numerics/messages.hpp"
@@ -11,6 +12,11 @@
 #include "dem/model.hpp"
 
 namespace polybed::dem {
+
+Outflow::Outflow(const Box& box, const Materials& materials)
+    : number(materials.species().size(), 0),
+      lowest_(box.opening ? -materials.greatest_diameter() : -std::numeric_limits<double>::infinity()),
+      highest_(box.open_top ? box.size[1] : std::numeric_limits<double>::infinity()) {}
 
 std::int64_t Outflow::all() const { return std::accumulate(number.begin(), number.end(), std::int64_t(0)); }
 
@@ -48,7 +54,7 @@ void Outflow::write(core::Checkpoint& checkpoint, const Particles&, const core::
   checkpoint.integers["outflow_energy_part"] = energy.part();
 }
 
-/// Of a run without an opening none has left, nor at the start of another.
+/// From a run that nothing can leave none has left, nor at the start of another.
 void Outflow::read(const Restored& from) {
   std::vector<std::int64_t> numbers(number.size() + 3, 0);
   const core::Checkpoint& checkpoint = from.checkpoint;

@@ -1,9 +1,11 @@
-// What has left the box through the opening in its bottom.
+// What has left the box: through the opening in its bottom, or through its open top.
 #pragma once
 
 #include <cstdint>
 #include <vector>
 
+#include "dem/box.hpp"
+#include "dem/contacts/materials.hpp"
 #include "dem/energy_sum.hpp"
 #include "dem/kept_part.hpp"
 #include "dem/particles.hpp"
@@ -12,12 +14,12 @@ namespace polybed::dem {
 
 class Model;
 
-/// Particles are taken out when the list of pairs is made anew, once they lie `fall` below the bottom. The same on
-/// every rank, and on any number of ranks to the bit.
+/// Particles are taken out when the list of pairs is made anew: once they lie a largest diameter below the bottom, or
+/// wholly beyond the top. The same on every rank, and on any number of ranks to the bit.
 class Outflow final : public KeptPart {
  public:
-  /// \param fall  m, of centres
-  Outflow(double fall, std::size_t species) : number(species, 0), fall_(fall) {}
+  /// Of a box with an opening in the bottom, or an open top.
+  Outflow(const Box& box, const Materials& materials);
 
   std::vector<std::int64_t> number;  ///< of each species, since the start
   std::int64_t steps = 0;            ///< that all of them took together before they left
@@ -25,7 +27,9 @@ class Outflow final : public KeptPart {
   /// that they were in.
   EnergySum energy;
 
-  [[nodiscard]] bool takes(const Place& place) const { return place.x[1] < -fall_; }
+  [[nodiscard]] bool takes(const Place& place) const {
+    return place.x[1] < lowest_ || place.x[1] - place.radius > highest_;
+  }
   /// Particles of all species.
   [[nodiscard]] std::int64_t all() const;
 
@@ -36,7 +40,7 @@ class Outflow final : public KeptPart {
   void read(const Restored& from) override;
 
  private:
-  double fall_;
+  double lowest_, highest_;  ///< of centres, and of what a particle must be above with all of it, m; infinite: closed
 };
 
 }  // namespace polybed::dem

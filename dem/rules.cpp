@@ -23,10 +23,14 @@ std::vector<core::Rule> key_rules() {
 
 const std::vector<core::Rule>& model_rules() {
   static const std::vector<core::Rule> all{
-      {{"column.outlet"},
-       "column.outlet = \"open\": polybed tfm can run it, polybed dem cannot: particles leave through dem.opening, "
-       "where there is no fluid; use \"screen\", which holds them",
-       [](const core::Scene& scene) { return core::broken_if(scene.column.outlet == core::Outlet::open); }},
+      {{"column.outlet", "fluid.name", "fluid.equation_of_state"},
+       "column.outlet = \"open\" in a compressible fluid: polybed tfm can run it, polybed dem cannot: the mass of the "
+       "fluid that takes the place of a particle as it leaves would be missing; use fluid.equation_of_state = "
+       "\"incompressible\"",
+       [](const core::Scene& scene) {
+         return core::broken_if(scene.column.outlet == core::Outlet::open && scene.fluid.present() &&
+                                scene.fluid.compressible());
+       }},
       {{"feed.species", "fluid.name", "fluid.equation_of_state"},
        "[[feed]] in a compressible fluid: polybed tfm can run it, polybed dem cannot: the mass of the fluid that a "
        "particle displaces as it enters would be lost; use fluid.equation_of_state = \"incompressible\"",

@@ -87,12 +87,13 @@ Box box_of(const core::Scene& scene) {
   box.shear_rate = scene.column.shear_rate;
   if (scene.dem.opening)
     box.opening = Opening{0.5 * box.size[0], 0.5 * box.size[2], 0.5 * *scene.dem.opening, column.dimensions == 3};
+  box.open_top = is_open_at_top(scene);
   for (int axis = 0; axis < 3; ++axis) {
     if (box.periodic[std::size_t(axis)]) continue;
     box.walls.push_back({axis, 0, 0});
     // The top of a column without a fluid lets particles fly beyond it, and gravity bring them back, unless it is
     // closed; the screen of one with a fluid stops them.
-    if (axis != 1 || column.closed || scene.fluid.present())
+    if (axis != 1 || column.closed || (scene.fluid.present() && !box.open_top))
       box.walls.push_back({axis, 1, box.size[std::size_t(axis)]});
   }
   for (const core::InnerWall& wall : scene.walls) box.add_plate({wall.from[0], wall.from[1], wall.to[0], wall.to[1]});
@@ -181,6 +182,11 @@ Content greatest_content(const Box& box, const Materials& materials) {
   const auto heaviest = std::max_element(species.begin(), species.end(),
                                          [](const Species& a, const Species& b) { return a.density < b.density; });
   return {volume, volume * heaviest->density};
+}
+
+bool is_open_at_top(const core::Scene& scene) {
+  return scene.column.outlet == core::Outlet::open && !scene.column.closed && !scene.bed.held &&
+         scene.column.ends != core::Boundary::periodic;
 }
 
 bool is_fed(const core::Scene& scene) { return !scene.feeds.empty() && scene.column.ends != core::Boundary::periodic; }

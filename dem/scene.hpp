@@ -35,6 +35,8 @@ struct Content {
 [[nodiscard]] Content greatest_content(const Box& box, const Materials& materials);
 /// Whether particles enter the box. One whose ends are joined, made from a case that is fed, has none.
 [[nodiscard]] bool is_fed(const core::Scene& scene);
+/// Whether particles leave through the top. In a box whose ends are joined they do not, nor does a fixed bed.
+[[nodiscard]] bool is_open_at_top(const core::Scene& scene);
 
 /// What particles are expected to reach, m/s.
 struct Speeds {

@@ -47,6 +47,7 @@ core::Scene falling(core::Scene scene, double step) {
   scene.bed.start = {core::StartKind::mixed};
   scene.dem.fixed_step = step;
   scene.dem.opening.reset();
+  scene.column.outlet = core::Outlet::screen;
   scene.inlet.superficial_velocity.clear();
   scene.jets.clear();
   scene.feeds.clear();

@@ -117,7 +117,7 @@ void Flow::set_density() {
 }
 
 /// What passed the ends in a step, at the density that its equations had; then the density is that of the new pressure.
-/// No particle crosses an end of a column with a fluid: J is the fluid's own flux there.
+/// No particle crosses an end of a column with a compressible fluid: J is the fluid's own flux there.
 void Flow::finish_compression(double dt, FlowStep& step) {
   const MassFlow flow = mass_flow(grid_, boundaries_, fluid_, fluid_.flux[1]);
   step.mass_in = flow.in * dt;

@@ -170,15 +170,18 @@ Broken wider_than_the_bottom(const Scene& scene) {
 }
 
 std::vector<Rule> bottom_rules() {
-  return {opening_rule({"fluid.name"}, "particles cannot leave a column with a fluid; set fluid.name = \"none\"",
-                       [](const Scene& scene) { return broken_if(scene.fluid.present()); }),
-          opening_rule({"column.ends"}, "column.ends = \"periodic\" leaves no bottom to open",
-                       [](const Scene& scene) { return broken_if(scene.column.ends == Boundary::periodic); }),
-          opening_rule({"column.size"}, "it must be narrower than the bottom, which is {} m {}", wider_than_the_bottom),
-          opening_rule({"species.diameter"}, "the largest particle, of {} m, must fit through", [](const Scene& scene) {
-            const double largest = largest_diameter(scene);
-            return *scene.dem.opening < largest ? Broken({fmt::format("{:g}", largest)}) : Broken();
-          })};
+  return {
+      opening_rule({"fluid.name"},
+                   "a fluid enters there, and particles leave through the top alone (column.outlet = \"open\"); set "
+                   "fluid.name = \"none\"",
+                   [](const Scene& scene) { return broken_if(scene.fluid.present()); }),
+      opening_rule({"column.ends"}, "column.ends = \"periodic\" leaves no bottom to open",
+                   [](const Scene& scene) { return broken_if(scene.column.ends == Boundary::periodic); }),
+      opening_rule({"column.size"}, "it must be narrower than the bottom, which is {} m {}", wider_than_the_bottom),
+      opening_rule({"species.diameter"}, "the largest particle, of {} m, must fit through", [](const Scene& scene) {
+        const double largest = largest_diameter(scene);
+        return *scene.dem.opening < largest ? Broken({fmt::format("{:g}", largest)}) : Broken();
+      })};
 }
 
 Broken wall_ends_miscounted(const Scene& scene) {

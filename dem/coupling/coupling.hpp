@@ -29,6 +29,7 @@
 namespace polybed::dem {
 
 class Exchange;
+class Outflow;
 
 class Coupling final : public KeptPart {
  public:
@@ -60,6 +61,8 @@ class Coupling final : public KeptPart {
   /// Before particles change ranks and places, and after.
   void send_ahead(Exchange& exchange, const Particles& particles);
   void settle_in(const Particles& particles);
+  /// Forgets what is kept of the particles that are about to be taken out.
+  void let_go(const Outflow& outflow, const Particles& particles);
   /// Particles that have entered since the end of a step of the fluid: their volumes count from now on, and forces act
   /// on them; nothing changes for the others. Collective. \param first  least id of those that have entered
   void take_in(const Particles& particles, std::int64_t first);

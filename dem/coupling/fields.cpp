@@ -3,6 +3,7 @@
 
 #include "core/numerics/blocks.hpp"
 #include "dem/coupling/coupling.hpp"
+#include "dem/outflow.hpp"
 #include "dem/parallel/exchange.hpp"
 #include "fluid/vorticity.hpp"
 
@@ -72,6 +73,22 @@ void Coupling::settle_in(const Particles& particles) {
   if (!exchange_) return;
   exchange_->choose(particles);
   fetch();
+}
+
+/// They are wholly beyond the top: nothing of them has been in the sums since then, and the fluid does not change.
+void Coupling::let_go(const Outflow& outflow, const Particles& particles) {
+  SideRows& rows = sides_.rows();
+  std::size_t staying = 0;
+  for (std::size_t i = 0; i < particles.owned; ++i) {
+    if (outflow.takes(particles.place[i])) continue;
+    if (i != staying) {
+      motion_.load[staying] = motion_.load[i];
+      std::copy_n(rows.of(i), rows.width, rows.of(staying));
+    }
+    ++staying;
+  }
+  motion_.load.resize(staying);
+  rows.numbers.resize(staying * rows.width);
 }
 
 /// What this rank's particles see of the fluid.

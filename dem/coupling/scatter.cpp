@@ -36,24 +36,49 @@ Scatter::Scatter(const core::Grid& grid, const core::Grid& block, const Material
 
 void Scatter::collect(const Particles& particles, const std::vector<FluidLoad>& loads, double dt) {
   std::fill(sums_.begin(), sums_.end(), 0);
-  if (count_ > yield + 1)
-    core::in_vectors<add_moving<carry_flux + 1>>(*this, particles, loads, dt);
-  else
-    core::in_vectors<add_moving<yield + 1>>(*this, particles, loads, dt);
+  const auto all = [&](const auto count) {
+    if (top_)
+      core::in_vectors<add_moving<count(), true>>(*this, particles, loads, dt);
+    else
+      core::in_vectors<add_moving<count(), false>>(*this, particles, loads, dt);
+  };
+  count_ > yield + 1 ? all(std::integral_constant<std::size_t, carry_flux + 1>())
+                     : all(std::integral_constant<std::size_t, yield + 1>());
 }
 
-template <std::size_t count>
+template <std::size_t count, bool open>
 void Scatter::add_moving(Scatter& sums, const Particles& particles, const std::vector<FluidLoad>& loads, double dt) {
   for (std::size_t i = 0; i < particles.owned; ++i) {
+    const Place& place = particles.place[i];
     const Motion& m = particles.motion[i];
     const FluidLoad& f = loads[i];
-    const double v = closures::sphere_volume(particles.place[i].radius), mass = 1 / m.inverse_mass,
-                 inertia = mass + f.added;
+    const double v = closures::sphere_volume(place.radius), mass = 1 / m.inverse_mass, inertia = mass + f.added;
     const double x = f.drag * dt / inertia, s = mean_decay(x), g = x * s, a = f.added / inertia * s;
-    const std::array<double, 6> same{mass * (g + a),      v * (g + a), v * (1 - mass / inertia * s),
-                                     v * v * s / inertia, mass * a,    v * a};
-    sums.add<count>(particles.place[i], same, m.v, f.impulse, std::size_t(particles.species[i]));
+    const Given given{v,
+                      {mass * (g + a), v * (g + a), v * (1 - mass / inertia * s), v * v * s / inertia, mass * a, v * a},
+                      m.v,
+                      f.impulse,
+                      std::size_t(particles.species[i])};
+    if constexpr (open) {
+      if (sums.top_->cuts(place)) {
+        sums.add_cut<count>(place, given);
+        continue;
+      }
+    }
+    sums.add<count>(sums.weights_(place.x), given);
   }
+}
+
+/// All that it gives, in the share that is inside: the fluid beyond the top takes the rest.
+template <std::size_t count>
+void Scatter::add_cut(const Place& place, Given given) {
+  const double share = top_->inside(place);
+  given.volume *= share;
+  for (double& amount : given.same) amount *= share;
+  for (double& component : given.impulse) component *= share;
+  Lines lines = weights_(place.x);
+  top_->drop_beyond(place, lines);
+  add<count>(lines, given);
 }
 
 void Scatter::collect_held(const core::Ranks* ranks, const Particles& particles, const std::vector<FluidLoad>& loads,
@@ -61,9 +86,14 @@ void Scatter::collect_held(const core::Ranks* ranks, const Particles& particles,
   fit_units(ranks, loads, dt);
   std::fill(sums_.begin(), sums_.end(), 0);
   const auto add_all = [&](const auto count) {
-    for (std::size_t i = 0; i < particles.owned; ++i)
-      add<count()>(particles.place[i], {loads[i].drag * dt, 0, 0, 0, 0, 0}, {}, loads[i].impulse,
-                   std::size_t(particles.species[i]));
+    for (std::size_t i = 0; i < particles.owned; ++i) {
+      const Place& place = particles.place[i];
+      add<count()>(weights_(place.x), {closures::sphere_volume(place.radius),
+                                       {loads[i].drag * dt, 0, 0, 0, 0, 0},
+                                       {},
+                                       loads[i].impulse,
+                                       std::size_t(particles.species[i])});
+    }
   };
   count_ > yield + 1 ? add_all(std::integral_constant<std::size_t, carry_flux + 1>())
                      : add_all(std::integral_constant<std::size_t, yield + 1>());
@@ -85,12 +115,9 @@ void Scatter::fit_units(const core::Ranks* ranks, const std::vector<FluidLoad>& 
   if (most_impulse > 0) unit_[Sum::impulse] = FixedPoint::for_sums_of(most_impulse, number[0]);
 }
 
-/// \param same  drag, follow, slide, yield, carry, carry_flux: alike on the faces of all axes
 template <std::size_t count>
-void Scatter::add(const Place& place, const std::array<double, 6>& same, const Vector& velocity, const Vector& impulse,
-                  std::size_t species) {
-  const Lines lines = weights_(place.x);
-  const double v = closures::sphere_volume(place.radius);
+void Scatter::add(const Lines& lines, const Given& given) {
+  const double v = given.volume;
   // Copies, as for all that the compiler knows a sum that is written may be a member.
   std::int64_t* const sums = sums_.data();
   const std::size_t width = width_;
@@ -99,17 +126,17 @@ void Scatter::add(const Place& place, const std::array<double, 6>& same, const V
   Four units[many] = {};  // of those on a face; the last may be for none
   const auto set = [&](std::size_t q, double amount) { units[q / 4][q % 4] = amount * unit_[q].per_unit; };
   set(Sum::volume, v);
-  for (std::size_t q = drag; q < count; ++q) set(q, same[q - drag]);
+  for (std::size_t q = drag; q < count; ++q) set(q, given.same[q - drag]);
   for (int axis = 0; axis < dimensions; ++axis) {
     const auto a = std::size_t(axis);
-    set(flux, v * velocity[a]);
-    set(Sum::impulse, impulse[a]);
+    set(flux, v * given.velocity[a]);
+    set(Sum::impulse, given.impulse[a]);
     for_each_face(dimensions, lines, axis, [&](std::size_t at, double w) {
       std::int64_t* sum = sums + at * width + a * 4 * many;
       for (std::size_t n = 0; n < many; ++n) add_whole(w * units[n], sum + 4 * n);
     });
   }
-  const std::size_t cell = std::size_t(dimensions) * 4 * many + species;
+  const std::size_t cell = std::size_t(dimensions) * 4 * many + given.species;
   for_each_cell(dimensions, lines,
                 [&](std::size_t at, double w) { sums[at * width + cell] += std::int64_t(w * units[0][0]); });  // volume
 }

@@ -3,10 +3,12 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "core/numerics/ranks.hpp"
 #include "dem/coupling/fluid_motion.hpp"
+#include "dem/coupling/open_top.hpp"
 #include "dem/coupling/weights.hpp"
 #include "dem/parallel/grid_exchange.hpp"
 #include "fluid/particle_phase.hpp"
@@ -19,6 +21,8 @@ class Scatter {
   /// \param volume  of all particles, m3  \param speed  greatest expected, m/s
   Scatter(const core::Grid& grid, const core::Grid& block, const Materials& materials, bool added_mass, double volume,
           double speed);
+  /// From here on particles pass the top, and count as far as they are inside.
+  void open_top() { top_.emplace(grid_); }
 
   /// Sums over this rank's particles. \param dt  of the fluid's step, s
   void collect(const Particles& particles, const std::vector<FluidLoad>& loads, double dt);
@@ -37,16 +41,25 @@ class Scatter {
   static constexpr std::size_t fours(std::size_t count) { return (count + 3) / 4; }
 
   void fit_units(const core::Ranks* ranks, const std::vector<FluidLoad>& loads, double dt);
-  template <std::size_t count>
+  /// What one particle gives. `same` is alike on the faces of all axes: drag, follow, slide, yield, carry, carry_flux.
+  struct Given {
+    double volume;
+    std::array<double, 6> same;
+    Vector velocity, impulse;
+    std::size_t species;
+  };
+  template <std::size_t count, bool open>
   static void add_moving(Scatter& sums, const Particles& particles, const std::vector<FluidLoad>& loads, double dt);
   template <std::size_t count>
-  void add(const Place& place, const std::array<double, 6>& same, const Vector& velocity, const Vector& impulse,
-           std::size_t species);
+  void add(const Lines& lines, const Given& given);
+  template <std::size_t count>
+  void add_cut(const Place& place, Given given);
   void add_up(const core::Ranks* ranks);
   void give_faces(std::span<const std::int64_t> sums, bool open_top, fluid::ParticlePhase& phase) const;
 
   core::Grid grid_, block_;
   Weights weights_;
+  std::optional<OpenTop> top_;  ///< absent: no particle passes the top
   std::vector<Species> species_;
   std::size_t count_;                        ///< sums on a face: the first of them
   std::size_t of_axis_, width_;              ///< their places on a face, and on all faces and in the cell of an entry

@@ -91,7 +91,8 @@ KEYS = {
         ('column.sides = "periodic" would end it at the side; use "wall"', ["column.sides=periodic"]),
         ('column.ends = "periodic" would end it at the bottom; use "wall"', ["column.ends=periodic"]),
         ('bed.start = "random" would place particles on both sides of it; use "mixed"', ["bed.start=random"]))},
-    'dem.opening = {} m: particles cannot leave a column with a fluid; set fluid.name = "none"': ["dem.opening=0.01"],
+    'dem.opening = {} m: a fluid enters there, and particles leave through the top alone (column.outlet = "open"); set fluid.name = "none"': [
+        "dem.opening=0.01"],
     'dem.opening = {} m: column.ends = "periodic" leaves no bottom to open': ["dem.opening=0.01", JOINED],
     "dem.opening = {} m: it must be narrower than the bottom, which is {} m {}": ["dem.opening=0.06"],
     "dem.opening = {} m: the largest particle, of {} m, must fit through": ["dem.opening=0.0007"],
@@ -171,8 +172,8 @@ ONE_MODEL = {
     "column.gravity_direction other than down without column.closed = true" + TFM_CANNOT: [*NO_FLUID, TILTED],
     'column.gravity_direction other than down with column.sides = "periodic"' + TFM_CANNOT: [*NO_FLUID, TILTED, "column.sides=periodic"],
     'column.gravity_direction other than down with bed.start = "settled"' + TFM_CANNOT: [*NO_FLUID, TILTED, "bed.start=settled"],
-    'column.outlet = "open": polybed tfm can run it, polybed dem cannot: particles leave through dem.opening, where there is no fluid; '
-    'use "screen", which holds them': ["column.outlet=open"],
+    'column.outlet = "open" in a compressible fluid: polybed tfm can run it, polybed dem cannot: the mass of the fluid that takes the place '
+    'of a particle as it leaves would be missing; use fluid.equation_of_state = "incompressible"': [*AIR, "column.outlet=open"],
     "[[feed]] in a compressible fluid: polybed tfm can run it, polybed dem cannot: the mass of the fluid that a particle displaces as it "
     'enters would be lost; use fluid.equation_of_state = "incompressible"': [*AIR, feeds("")],
 }

@@ -203,7 +203,7 @@ class Comparison(Scratch):
         self.assertIn("dem: the run is not done (stopped by the user)", found["warnings"])
 
     def test_what_one_model_cannot_run_is_told_before_the_other_begins(self):
-        told = self.compare(WRONG_CASE, "--set", "column.outlet=open").stderr
+        told = self.compare(WRONG_CASE, "--set", "column.outlet=open", "--set", "fluid.equation_of_state=tait").stderr
         self.assertIn("column.outlet", told)
         self.assertFalse((self.folder / "new").exists())
 

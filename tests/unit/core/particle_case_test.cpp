@@ -240,7 +240,8 @@ TEST(ParticleCase, AnOpeningNeedsABottomAndNoFluid) {
   EXPECT_EQ(parse_case(dry_case(lines), "case.toml", {}, {}).dem.opening, 0.01);
   std::string wet = dry_case(lines) + "\n[inlet]\nsuperficial_velocity = 0.1\n";
   wet.replace(wet.find("\"none\""), 6, "\"water\"\ntemperature = \"20 degC\"");
-  EXPECT_THAT(message_of(wet), HasSubstr("dem.opening = 0.01 m: particles cannot leave a column with a fluid"));
+  EXPECT_THAT(message_of(wet),
+              HasSubstr("dem.opening = 0.01 m: a fluid enters there, and particles leave through the top alone"));
   lines.column = "ends = \"periodic\"";
   EXPECT_THAT(message_of(dry_case(lines)), HasSubstr("leaves no bottom to open"));
   std::string solid = dry_case(lines);

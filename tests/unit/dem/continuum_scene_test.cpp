@@ -21,7 +21,8 @@ TEST(ContinuumScene, IsToldWithAllItsKeysAtOnce) {
     FAIL() << "not refused";
   } catch (const core::CaseError& error) {
     EXPECT_THAT(error.what(),
-                testing::HasSubstr("column.outlet = \"open\": polybed tfm can run it, polybed dem cannot"));
+                testing::HasSubstr(
+                    "column.outlet = \"open\" in a compressible fluid: polybed tfm can run it, polybed dem cannot"));
     EXPECT_THAT(error.what(),
                 testing::HasSubstr("[[feed]] in a compressible fluid: polybed tfm can run it, polybed dem cannot"));
   }
