@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""Particles that are fed on 1, 2, 3 and 4 ranks: the same bits of all of them and of what has entered, with and without a restart on
-another number of ranks."""
+"""Particles that are fed, or that a fluid carries out, on 1, 2, 3 and 4 ranks: the same bits of all of them and of what has entered and
+left, with and without a restart on another number of ranks."""
 import json
 import random
 
@@ -44,6 +44,19 @@ def above_slot():
             for i in range(10) for j in range(8) for k in range(3)]
 
 
+# the same water over a block of light particles that fly out through its top
+LEAVING = dem_ranks_test.WET.replace("depth", 'outlet = "open"\ndepth').replace("50 mm/s", "0.3 m/s").replace(
+    'particles = [80, 120]\nstart = "mixed"', 'start = "list:particles.csv"').replace("start_solids_fraction = 0.4\n", "")
+
+
+def below_top():
+    """A block of 10 by 4 by 2 particles, the uppermost 0.3 mm below the top."""
+    spread = random.Random(5)
+    return [f"b,{(1.1 * i + 0.9) * 1e-3},{(1.0 * j + 20.3) * 1e-3},{(1.2 * k + 0.6) * 1e-3},"
+            f"{spread.uniform(-0.1, 0.1)},{spread.uniform(0.3, 0.45)},{spread.uniform(-0.1, 0.1)},0,0,0"
+            for i in range(10) for j in range(4) for k in range(2)]
+
+
 class FeedRanks(Scratch):
     start_on, on, scene, check_same = (getattr(dem_ranks_test.DemRanks, name) for name in ("start_on", "on", "scene", "check_same"))
 
@@ -58,6 +71,15 @@ class FeedRanks(Scratch):
         case = self.scene(dem_ranks_test.WET + feed, common=dem_ranks_test.WITH_FLUID)
         records = self.check_same(case, restart=(4, 2), numbers=(1, 2, 4), steps=dem_ranks_test.FEWER)
         self.assertEqual(records[1]["feed"]["b"]["particles"], 17)  # 40 mm/s of 28.8 mm2 for 4 ms
+
+    def test_particles_that_a_fluid_carries_out(self):
+        case = self.scene(LEAVING, below_top(), common=dem_ranks_test.WITH_FLUID)
+        records = self.check_same(case, restart=(4, 2), numbers=(1, 2, 4), steps=dem_ranks_test.FEWER, touching=False)
+        left = {json.dumps([record["outflow"], record["particles"], record["energy"]["carried_out_J"]]) for record in records.values()}
+        self.assertEqual(len(left), 1, left)
+        out = records[1]["outflow"]["b"]["particles"]
+        self.assertGreater(out, 10)  # most of the 20 uppermost: 1.1 mm at 0.3 to 0.45 m/s for 4 ms
+        self.assertEqual(out + records[1]["particles"], 80)
 
 
 if __name__ == "__main__":
