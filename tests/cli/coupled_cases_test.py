@@ -53,6 +53,17 @@ class CoupledCases(Scratch):
         self.assertAlmostEqual(drop / rows["buoyant_weight_Pa"][0], 1, delta=0.01)
         self.assertGreater(rows["bed_height_m"][-1], rows["bed_height_m"][0])  # it expands; settling would be lower
 
+    def test_fines_leave_an_elutriator(self):
+        """A column half as high: a free fine bead rises at 60 - 23 mm/s, so that those from the upper half of the bed, 10 mm high, have
+        risen 11 mm by 0.3 s. The coarse beads fall at 146 mm/s."""
+        record, directory = self.dem("elutriator", run__until=0.3, column__size="[0.02,0.02]", column__cells="[10,10]")
+        rows = history(directory)
+        out = np.array(rows["out_fine"])
+        np.testing.assert_allclose(out + 770 * np.array(rows["mass_fine_kg"]) / rows["mass_fine_kg"][0], 770, rtol=1e-9)
+        self.assertGreater(out[-1], 100)
+        self.assertEqual((rows["out_coarse"][-1], record["outflow"]["fine"]["particles"]), (0, out[-1]))
+        self.assertLess(record["energy"]["worst_error"], record["energy"]["limit"])
+
     def carried(self, name, weight, after, within, **values):
         """Mean pressure drop after a time over the buoyant weight, Pa, which is checked, of two columns of cells without side walls."""
         rows = history(self.dem(name, column__sides="periodic", **values)[1])

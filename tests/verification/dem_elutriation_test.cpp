@@ -144,7 +144,7 @@ TEST(DemElutriation, ResumesWithTheSameBits) {
   const core::Checkpoint middle = through.model.checkpoint();
   again.model.resume(middle);
   expect_same(again.model.checkpoint(), middle);
-  for (Beads* run : {&through, &again}) run->steps(1600);
+  for (Beads* run : {&through, &again}) run->steps(3200);
   EXPECT_GT(left(), 10);
   expect_same(again.model.checkpoint(), through.model.checkpoint());
 }
