@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/numerics/metric.hpp"
+
 namespace polybed::fluid {
 
 using core::Field;
@@ -43,6 +45,9 @@ void Boundaries::copy_outward(Field& u) const {
     });
 }
 
+/// Whether the low end along an axis of the grid is the axis that the column is round about.
+bool Boundaries::begins_at_axis(int axis) const { return axis == 0 && grid_.metric && grid_.metric->around_axis; }
+
 /// What lies beyond the column's ends across one axis.
 void Boundaries::fill_walls(const Ghosts& wanted, int axis) const {
   if (wanted.kind == Ghosts::Kind::joined) return;
@@ -53,7 +58,7 @@ void Boundaries::fill_walls(const Ghosts& wanted, int axis) const {
   else if (axis == wanted.component)
     fill_beyond(*wanted.field, axis, -1, -1, true);
   else
-    fill_beyond(*wanted.field, axis, along_wall, open_top ? 1 : along_wall, false);
+    fill_beyond(*wanted.field, axis, begins_at_axis(axis) ? 1 : along_wall, open_top ? 1 : along_wall, false);
 }
 
 void Boundaries::fill(std::span<const Ghosts> wanted) const {

@@ -87,6 +87,7 @@ class Boundaries {
  private:
   void fill_walls(const Ghosts& wanted, int axis) const;
   void copy_outward(core::Field& u) const;
+  [[nodiscard]] bool begins_at_axis(int axis) const;
   void fill_beyond(core::Field& field, int axis, double sign_low, double sign_high, bool on_faces) const;
 
   core::Grid grid_;

@@ -32,10 +32,13 @@ void convection(const core::Grid& grid, const Boundaries& boundaries, bool limit
     std::fill(rate.begin(), rate.end(), 0.0);
     core::Box inside = core::interior_faces(grid, axis);
     if (!of_fluid) inside = boundaries.with_solids(inside);
-    if (limited)
-      core::subtract_carried<core::LimitedFace>(grid, flux, velocity[a], axis, inside, rate);
-    else
-      core::subtract_carried<core::UpwindFace>(grid, flux, velocity[a], axis, inside, rate);
+    core::with_metric(
+        grid, [&](const auto& metric) __attribute__((always_inline)) {
+          if (limited)
+            core::subtract_carried<core::LimitedFace>(metric, grid, flux, velocity[a], axis, inside, rate);
+          else
+            core::subtract_carried<core::UpwindFace>(metric, grid, flux, velocity[a], axis, inside, rate);
+        });
     double* to = rate.data();
     core::for_each_row(grid, inside, [&](core::Index begin, core::Index end) {
 #pragma GCC ivdep

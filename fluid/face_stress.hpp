@@ -37,12 +37,14 @@ class SolidEdge {
 };
 
 /// div(w (grad U + grad U^T - 2/3 div U I)) on the faces of the axis a, w a weight on cells (eps of the fluid, phi_j
-/// times viscosity of a solid). Ghosts of both must be filled; fields must outlive this.
-template <std::size_t dimensions, std::size_t a, class Edge = WholeEdge>
+/// times viscosity of a solid). Around an axis, the stress along the circles pulls inwards too. Ghosts of both must be
+/// filled; fields must outlive this.
+template <std::size_t dimensions, std::size_t a, class Metric, class Edge = WholeEdge>
 class FaceStress {
  public:
-  FaceStress(const core::Grid& grid, const core::Field& weight, const core::FaceField& velocity, Edge edge = {})
-      : weight_(weight.data()), edge_(edge) {
+  FaceStress(const Metric& metric, const core::Grid& grid, const core::Field& weight, const core::FaceField& velocity,
+             Edge edge = {})
+      : metric_(metric), weight_(weight.data()), edge_(edge) {
     for (std::size_t d = 0; d < dimensions; ++d) {
       u_[d] = velocity[d].data();
       stride_[d] = grid.stride(int(d));
@@ -52,19 +54,44 @@ class FaceStress {
 
   /// On face c: of the weight times 1/(m s).
   [[nodiscard]] double divergence(core::Index c) const {
-    double force = (normal(c) - normal(c - stride_[a])) * per_length_[a];
+    double force = (through(c) - through(c - stride_[a])) * per_length_[a];
     core::for_each_axis<dimensions>([&](auto b) {
-      if constexpr (b != a) force += (shear(c + stride_[b], b) - shear(c, b)) * per_length_[b];
+      if constexpr (b != a)
+        force +=
+            (open_edge(c + stride_[b], b) * shear(c + stride_[b], b) - open_edge(c, b) * shear(c, b)) * per_length_[b];
     });
+    force *= metric_.per_volume_on(a, c);
+    if constexpr (Metric::radial && a == 0) force -= around(c);
     return force;
   }
 
  private:
-  /// w (2 du_a/dx_a - 2/3 div U) in cell c.
-  [[nodiscard]] double normal(core::Index c) const {
+  /// w (2 du_a/dx_a - 2/3 div U) in cell c, over its whole cross-section.
+  [[nodiscard]] double through(core::Index c) const {
+    return metric_.volume(c) * (weight_[c] * 2 * (along(a, c) - divergence_in(c) / 3));
+  }
+  /// div U in cell c.
+  [[nodiscard]] double divergence_in(core::Index c) const {
     double div = 0;
-    core::for_each_axis<dimensions>([&](auto d) { div += along(d, c); });
-    return weight_[c] * 2 * (along(a, c) - div / 3);
+    core::for_each_axis<dimensions>([&](auto d) {
+      if constexpr (Metric::radial)
+        div += (metric_.open(d, c + stride_[d]) * u_[d][c + stride_[d]] - metric_.open(d, c) * u_[d][c]) *
+               (per_length_[d] * metric_.per_volume(c));
+      else
+        div += along(d, c);
+    });
+    return div;
+  }
+  /// w (2 u_r/r - 2/3 div U)/r on face c.
+  [[nodiscard]] double around(core::Index c) const {
+    const core::Index s = stride_[0];
+    const double weight = 0.5 * (weight_[c - s] + weight_[c]), per_radius = metric_.per_radius_on(c);
+    const double div = 0.5 * (divergence_in(c - s) + divergence_in(c));
+    return weight * 2 * (u_[0][c] * per_radius - div / 3) * per_radius;
+  }
+  /// Open share of the edge below the faces c of both axes, across b.
+  [[nodiscard]] double open_edge(core::Index c, std::size_t b) const {
+    return 0.5 * (metric_.open(b, c) + metric_.open(b, c - stride_[a]));
   }
   [[nodiscard]] double along(std::size_t d, core::Index c) const {
     return (u_[d][c + stride_[d]] - u_[d][c]) * per_length_[d];
@@ -78,6 +105,7 @@ class FaceStress {
     return weight * ((u_[a][c] - u_[a][c - sb]) * per_length_[b] + (u_[b][c] - u_[b][c - sa]) * per_length_[a]);
   }
 
+  Metric metric_;
   const double* weight_;
   Edge edge_;
   std::array<const double*, 3> u_{};

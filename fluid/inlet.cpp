@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/numerics/metric.hpp"
 #include "core/numerics/ranks.hpp"
 #include "fluid/boundaries.hpp"
 
@@ -56,11 +57,13 @@ double Ramp::greatest() const {
 
 namespace {
 
-/// Share of the block's cell n of an axis that lies in [from, to].
+/// Share of the block's cell n of an axis that lies in [from, to]; of a ring, by its area.
 double overlap(const core::Grid& grid, int axis, int n, double from, double to) {
   const double h = grid.spacing[std::size_t(axis)];
   const int m = grid.before[std::size_t(axis)] + n;
-  return std::max(0.0, std::min(to, (m + 1) * h) - std::max(from, m * h)) / h;
+  const double low = std::max(from, m * h), high = std::min(to, (m + 1) * h);
+  const bool ring = axis == 0 && grid.metric && grid.metric->around_axis;
+  return std::max(0.0, high - low) / h * (ring ? (low + high) / ((2 * m + 1) * h) : 1.0);
 }
 
 }  // namespace
@@ -93,8 +96,15 @@ Inlet::Inlet(const core::Grid& grid, const core::Scene& scene) : grid_(grid) {
 }
 
 double Inlet::mean_over_bottom(const std::vector<double>& share) const {
-  const std::span<const double> here = grid_.ends(1, 0) ? std::span(share) : std::span<const double>();
-  return core::sum_of_ranks(grid_, here) / (double(grid_.column_cells(0)) * grid_.column_cells(2));
+  std::vector<double> here;
+  if (grid_.ends(1, 0)) here = share;
+  if (grid_.metric && !here.empty()) {
+    std::size_t face = 0;
+    for_each_boundary_row(grid_, 1, 0, [&](Index begin, Index end) {
+      for (Index c = begin; c < end; ++c, ++face) here[face] *= grid_.metric->open[1][std::size_t(c)];
+    });
+  }
+  return core::sum_of_ranks(grid_, here) / core::open_cells_of_layer(grid_);
 }
 
 template <class Value>

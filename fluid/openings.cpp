@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/numerics/metric.hpp"
 #include "core/numerics/operators.hpp"
 #include "core/numerics/ranks.hpp"
 #include "fluid/boundaries.hpp"
@@ -157,10 +158,11 @@ std::vector<Passed> Openings::passed(const Interphase& solids) const {
   std::vector<Passed> result(solids.species());
   if (!present()) return result;
   const double area = grid_.spacing[0] * grid_.spacing[2];
+  const double* open = grid_.metric ? grid_.metric->open[1].data() : nullptr;
   for (const Passage& passage : passages_)
     for_each_boundary_row(grid_, 1, passage.side, [&](Index begin, Index end) {
       for (Index c = begin; c < end; ++c) {
-        const double upward = area * solids.passed[passage.species][std::size_t(c)];
+        const double upward = (open ? open[c] : 1.0) * area * solids.passed[passage.species][std::size_t(c)];
         Passed& sum = result[passage.species];
         if (passage.side == bottom)
           sum.in += upward;

@@ -15,7 +15,9 @@ Pressure::Pressure(const core::Grid& grid, double tolerance)
       tolerance_(tolerance),
       solver_(grid),
       divergence_(core::make_field(grid)),
-      source_(core::make_field(grid)) {}
+      source_(core::make_field(grid)) {
+  if (grid.metric) open_mobility_ = core::make_face_field(grid);
+}
 
 core::PoissonResult Pressure::solve(const FluxRate& rate, const core::FaceField& flux, double w, Field& pressure) {
   core::divergence(grid_, rate.free, source_);
@@ -23,7 +25,11 @@ core::PoissonResult Pressure::solve(const FluxRate& rate, const core::FaceField&
   core::for_each_row(grid_, [&](Index begin, Index end) {
     for (auto c = std::size_t(begin); c < std::size_t(end); ++c) source_[c] = -(source_[c] + w * divergence_[c]);
   });
-  return solver_.solve({rate.mobility[0], rate.mobility[1], rate.mobility[2]}, {}, source_, pressure, tolerance_);
+  if (!grid_.metric) return solver_.solve(core::spans(rate.mobility), {}, source_, pressure, tolerance_);
+  open_mobility_ = rate.mobility;
+  core::weigh_faces(grid_, open_mobility_);
+  core::weigh_cells(grid_, source_);
+  return solver_.solve(core::spans(open_mobility_), {}, source_, pressure, tolerance_);
 }
 
 void set_outlet_pressure(const core::Grid& grid, const Boundaries& boundaries, Field& pressure) {

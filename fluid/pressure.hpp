@@ -28,6 +28,7 @@ class Pressure {
   double tolerance_;
   core::PoissonSolver solver_;
   core::Field divergence_, source_;
+  core::FaceField open_mobility_;  ///< of a round column
 };
 
 /// Calls body(begin, end, gradient) for rows of an axis's moving faces, where gradient(c) is dp/dx_axis,

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "core/numerics/metric.hpp"
 #include "core/numerics/ranks.hpp"
 #include "fluid/pressure.hpp"
 
@@ -92,7 +93,7 @@ std::vector<double> volumes_here(const core::Grid& grid, const fluid::Interphase
     double sum = 0, lost = 0;
     core::for_each_row(grid, [&](Index begin, Index end) {
       for (auto c = std::size_t(begin); c < std::size_t(end); ++c) {
-        const double term = phi[c] - lost, next = sum + term;
+        const double term = (grid.metric ? grid.metric->volume[c] : 1.0) * phi[c] - lost, next = sum + term;
         lost = (next - sum) - term;
         sum = next;
       }

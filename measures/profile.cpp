@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/numerics/metric.hpp"
 #include "core/numerics/ranks.hpp"
 
 namespace polybed::measures {
@@ -28,12 +29,13 @@ Profile on_slabs(const Profile& profile, double slab, std::size_t count) {
 
 std::vector<double> part_of_lateral_mean(const core::Grid& grid, std::span<const double> field) {
   std::vector<double> mean(std::size_t(grid.column_cells(1)), 0.0);
-  const double layer_cells = double(grid.column_cells(0)) * grid.column_cells(2);
+  const double layer_cells = core::open_cells_of_layer(grid);
+  const double* open = grid.metric ? grid.metric->volume.data() : nullptr;
   for (int y = 0; y < grid.cells[1]; ++y) {
     const core::Box layer{{0, y, 0}, {grid.cells[0], y + 1, grid.cells[2]}};
     double sum = 0;
     core::for_each_row(grid, layer, [&](core::Index begin, core::Index end) {
-      for (core::Index c = begin; c < end; ++c) sum += field[std::size_t(c)];
+      for (core::Index c = begin; c < end; ++c) sum += (open ? open[c] : 1.0) * field[std::size_t(c)];
     });
     mean[std::size_t(grid.before[1] + y)] = sum / layer_cells;
   }

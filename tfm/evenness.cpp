@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/numerics/metric.hpp"
 #include "core/numerics/ranks.hpp"
 
 namespace polybed::tfm {
@@ -17,7 +18,9 @@ double lateral_difference(const core::Grid& grid, const Fields& fields) {
   for (int axis = 0; axis < grid.dimensions; axis += 2) {
     const Index s = grid.stride(axis);
     core::for_each_row(grid, core::interior_faces(grid, axis), [&](Index begin, Index end) {
-      for (Index f = begin; f < end; ++f) most = std::max(most, std::abs(phi[f] - phi[f - s]));
+      for (Index f = begin; f < end; ++f)
+        if (!grid.metric || grid.metric->open[std::size_t(axis)][std::size_t(f)] > 0)
+          most = std::max(most, std::abs(phi[f] - phi[f - s]));
     });
   }
   return core::greatest_of_ranks(grid, most);

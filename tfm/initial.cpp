@@ -8,6 +8,7 @@
 
 #include "core/case/layers.hpp"
 #include "core/error.hpp"
+#include "core/numerics/metric.hpp"
 #include "core/numerics/random.hpp"
 
 namespace polybed::tfm {
@@ -90,9 +91,13 @@ void perturb_layer(const core::Grid& grid, int y, double share, std::uint64_t se
                    (std::uint64_t(y) * std::uint64_t(nz) + std::uint64_t(z)) * std::uint64_t(nx) + std::uint64_t(x)) -
            1;
   };
+  const double cells = core::open_cells_of_layer(grid);
+  const auto open = [&](int x, int z) {
+    return grid.metric ? grid.metric->section.volume[grid.metric->section.at(x, z)] : 1.0;
+  };
   double mean = 0;
   for (int z = 0; z < nz; ++z)
-    for (int x = 0; x < nx; ++x) mean += random(x, z) / (double(nx) * nz);
+    for (int x = 0; x < nx; ++x) mean += open(x, z) * random(x, z) / cells;
   for (int z = 0; z < grid.cells[2]; ++z)
     for (int x = 0; x < grid.cells[0]; ++x) {
       const double factor = 1 + share * (random(grid.before[0] + x, grid.before[2] + z) - mean);
@@ -147,10 +152,8 @@ void fill_layer(const core::Grid& grid, int y, double value, core::Field& field)
                      [&](Index begin, Index end) { std::fill(field.begin() + begin, field.begin() + end, value); });
 }
 
-}  // namespace
-
-void fill_bed(const core::Scene& scene, const Constants& constants, const StressEffect* stress,
-              fluid::Interphase& solids) {
+void fill_whole_cells(const core::Scene& scene, const Constants& constants, const StressEffect* stress,
+                      fluid::Interphase& solids) {
   const core::Bed& bed = scene.bed;
   const core::Grid& grid = constants.grid;
   if (bed.start.kind == core::StartKind::layered) return fill_parts(scene, grid, solids);
@@ -175,6 +178,17 @@ void fill_bed(const core::Scene& scene, const Constants& constants, const Stress
       fill_layer(grid, y - grid.before[1], bed.volume_share[j] * column[std::size_t(y)], solids.fraction[j]);
     if (uneven) perturb_layer(grid, y, bed.perturbation, bed.seed, solids);
   }
+}
+
+}  // namespace
+
+void fill_bed(const core::Scene& scene, const Constants& constants, const StressEffect* stress,
+              fluid::Interphase& solids) {
+  fill_whole_cells(scene, constants, stress, solids);
+  const core::Metric* metric = constants.grid.metric.get();
+  for (core::Field& phi : solids.fraction)
+    for (std::size_t c = 0; metric != nullptr && c < phi.size(); ++c)
+      if (!(metric->volume[c] > 0)) phi[c] = 0;
 }
 
 }  // namespace polybed::tfm

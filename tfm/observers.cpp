@@ -187,8 +187,7 @@ void Observers::write_history(double time) {
   well_posed.put_into(all);
   all.over(ranks_);
 
-  const double area = constants.grid.spacing[0] * constants.grid.column_cells(0) * constants.grid.spacing[2] *
-                      constants.grid.column_cells(2);
+  const double area = constants.grid.spacing[0] * constants.grid.spacing[2] * core::open_cells_of_layer(constants.grid);
   for (std::size_t j = 0; j < constants.species(); ++j) {
     bed.mass.push_back(watched.volume[j] * constants.density[j]);
     bed.buoyant_weight += bed.mass[j] * (1 - constants.fluid.density / constants.density[j]) * constants.gravity *

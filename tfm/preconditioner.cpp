@@ -149,6 +149,8 @@ void Preconditioner::elliptic_sources() {
       for (const Field& residual : fraction_residual_) source_s_[c] += residual[c];
     }
   });
+  core::weigh_cells(grid, source_p_);
+  core::weigh_cells(grid, source_s_);
 }
 
 /// Step 3: v -= R_q grad dp + R_g grad q, q in the work space.

@@ -35,7 +35,10 @@ bool Preconditioner::setup(const Fields& fields, double c) {
       build(fields, density, axis, at_top, boundaries_.open() ? Place::outlet : Place::screen);
     });
   }
-  for (core::FaceField& coefficient : coupling_) boundaries_.join(coefficient);
+  for (core::FaceField& coefficient : coupling_) {
+    boundaries_.join(coefficient);
+    core::weigh_faces(grid, coefficient);
+  }
   temperature_row_ = temperature_residual_ = fields.granular.decay;
   for (Field& row : temperature_row_)
     for (double& rate : row) rate += c;
@@ -43,6 +46,7 @@ bool Preconditioner::setup(const Fields& fields, double c) {
     for (std::size_t cell = 0; cell < slope_.size(); ++cell)
       slope_[cell] = fields.stress.slope[cell] + fields.stress.damping[cell] * c;
   boundaries_.fill_cells(slope_);
+  for (std::size_t cell = 0; grid.metric && cell < slope_.size(); ++cell) slope_[cell] *= grid.metric->per_volume[cell];
   if (fields.fluid.compression.present()) {
     diagonal_ = fields.fluid.compression.kappa;
     for (double& d : diagonal_) d *= c;
@@ -59,13 +63,16 @@ void Preconditioner::build(const Fields& fields, const Density& density, int axi
   core::for_each_row(constants_.grid, box, [&](Index begin, Index end) {
     for (Index face = begin; face < end; ++face) {
       const auto a = std::size_t(axis), at = std::size_t(face);
+      const bool open = !constants_.grid.metric || constants_.grid.metric->open[a][at] > 0;
       for (std::size_t j = 0; j < constants_.species(); ++j) {
-        moves_[j] = place == Place::inside || (place == Place::outlet && !constants_.openings.holds(j, face));
+        moves_[j] = open && (place == Place::inside || (place == Place::outlet && !constants_.openings.holds(j, face)));
         const bool carried = moves_[j] && (place == Place::inside || fields.solids.velocity[j][a][at] > 0);
         fraction_[a][j][at] = carried ? face_mean(fields.solids.fraction[j].data(), face, s) : 0.0;
       }
       invert_face(fields, density.on_face(face, s), axis, face);
       respond(fields, density.on_face(face, s), axis, face);
+      if (open) continue;
+      for (std::size_t k = 0; k < rows_; ++k) response_pressure_[a][k][at] = 0;
     }
   });
 }

@@ -36,6 +36,8 @@ void subtract_pressure_gradient(const Constants& constants, const fluid::Boundar
     }
   }
   if (constants.openings.present()) constants.openings.hold(fields.solids.acceleration);
+  core::hold_closed(grid, fields.flux_rate.free);
+  for (core::FaceField& acceleration : fields.solids.acceleration) core::hold_closed(grid, acceleration);
 }
 
 void pack_rates(const StateLayout& layout, const Fields& fields, std::span<double> dydt) {

@@ -175,6 +175,7 @@ void RightHandSide::set_flux_rate(double t) {
     effects_.inertia->set_mobility(fields_);
   else if (openings)
     constants_.openings.hold(fields_.solids, fields_.flux_rate.mobility);
+  core::hold_closed(constants_.grid, fields_.flux_rate.free);
   set_inlet_rate(t);
 }
 

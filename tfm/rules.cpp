@@ -32,6 +32,15 @@ Broken wall_without_viscosity(const Scene& scene) {
                          !relevance::effects::solids_stress.has(scene, relevance::effects::with_collisions));
 }
 
+/// Around an axis walls that do not slip follow the grid.
+Broken slow_solids_on_round_wall(const Scene& scene) {
+  const core::ColumnShape shape = scene.column.shape;
+  const core::SolidsWall wall = scene.tfm.solids_wall;
+  const bool follows = scene.column.around_axis() && wall == core::SolidsWall::no_slip;
+  if (shape == core::ColumnShape::box || wall == core::SolidsWall::free_slip || follows) return {};
+  return Broken({std::string(core::name_of(shape)), std::string(core::name_of(wall))});
+}
+
 bool packing_follows(const Scene& scene, core::PackingRule rule) {
   return scene.tfm.max_packing == core::MaxPacking(rule);
 }
@@ -100,6 +109,18 @@ std::vector<core::Rule> key_rules() {
        "give "
        "feed.from and feed.to for a part of the top, or column.outlet = \"screen\"",
        outlet_fed_shut},
+      {{"column.shape", "tfm.solids_wall"},
+       "column.shape = \"{}\" and tfm.solids_wall = \"{}\" cannot be combined yet: the solids slip freely along round "
+       "walls",
+       slow_solids_on_round_wall},
+      {{"column.shape", "fluid.equation_of_state"},
+       "column.shape = \"{}\" and a compressible fluid cannot be combined yet; use fluid.equation_of_state = "
+       "\"incompressible\"",
+       [](const Scene& scene) {
+         const core::ColumnShape shape = scene.column.shape;
+         if (shape == core::ColumnShape::box || !scene.fluid.compressible()) return Broken();
+         return Broken({std::string(core::name_of(shape))});
+       }},
       {{"tfm.fixed_step", "tfm.integrator"},
        "tfm.fixed_step works with explicit and imex steps only",
        [](const Scene& scene) { return core::broken_if(is_implicit(scene) && scene.tfm.fixed_step); }}};

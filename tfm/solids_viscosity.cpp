@@ -13,10 +13,11 @@ using core::Index;
 namespace {
 
 /// The rate of strain of one velocity at cell centres.
-template <std::size_t dimensions>
+template <std::size_t dimensions, class Metric>
 class Strain {
  public:
-  Strain(const core::Grid& grid, const core::FaceField& velocity, const core::Field& fraction) : share_(fraction) {
+  Strain(const Metric& metric, const core::Grid& grid, const core::FaceField& velocity, const core::Field& fraction)
+      : metric_(metric), share_(fraction) {
     for (std::size_t d = 0; d < dimensions; ++d) {
       u_[d] = velocity[d].data();
       stride_[d] = grid.stride(int(d));
@@ -37,6 +38,11 @@ class Strain {
                            (edge(c + stride_[b], a, b) + edge(c + stride_[a] + stride_[b], a, b)));
       });
     });
+    if constexpr (Metric::radial) {
+      const double around = 0.5 * (u_[0][c] + u_[0][c + stride_[0]]) * metric_.per_radius(c);
+      squares += around * around;
+      divergence += around;
+    }
     return 2 * std::max(squares - divergence * divergence / 3, 0.0) + shear;
   }
 
@@ -48,16 +54,19 @@ class Strain {
     return share_(c, stride_[a], stride_[b]) * rate * rate;
   }
 
+  Metric metric_;
   fluid::SolidEdge share_;
   std::array<const double*, 3> u_{};
   std::array<Index, 3> stride_{};
   std::array<double, 3> per_length_{};
 };
 
-template <std::size_t dimensions>
-void strain_rates_in(const Constants& constants, const fluid::Boundaries& boundaries, Fields& fields) {
+template <std::size_t dimensions, class Metric>
+void strain_rates_in(const Metric& metric, const Constants& constants, const fluid::Boundaries& boundaries,
+                     Fields& fields) {
   for (std::size_t j = 0; j < constants.species(); ++j) {
-    const Strain<dimensions> strain(constants.grid, fields.solids.velocity[j], fields.solids.fraction[j]);
+    const Strain<dimensions, Metric> strain(metric, constants.grid, fields.solids.velocity[j],
+                                            fields.solids.fraction[j]);
     double* out = fields.stress.strain[j].data();
     core::for_each_row(constants.grid, boundaries.solids_cells(), [&](Index begin, Index end) {
 #pragma GCC ivdep
@@ -66,9 +75,9 @@ void strain_rates_in(const Constants& constants, const fluid::Boundaries& bounda
   }
 }
 
-template <std::size_t dimensions>
-void add_viscosity_in(const Constants& constants, const fluid::Boundaries& boundaries, Fields& fields,
-                      core::Field& weight) {
+template <std::size_t dimensions, class Metric>
+void add_viscosity_in(const Metric& metric, const Constants& constants, const fluid::Boundaries& boundaries,
+                      Fields& fields, core::Field& weight) {
   const core::Grid& grid = constants.grid;
   for (std::size_t j = 0; j < constants.species(); ++j) {
     const core::Field& fraction = fields.solids.fraction[j];
@@ -78,8 +87,8 @@ void add_viscosity_in(const Constants& constants, const fluid::Boundaries& bound
 #pragma GCC ivdep
     for (std::size_t c = 0; c < cells; ++c) to[c] = std::max(phi[c], 0.0) * viscosity[c];
     core::for_each_axis<dimensions>([&](auto axis) __attribute__((always_inline)) {
-      const fluid::FaceStress<dimensions, axis, fluid::SolidEdge> stress(grid, weight, fields.solids.velocity[j],
-                                                                         fluid::SolidEdge(fraction));
+      const fluid::FaceStress<dimensions, axis, Metric, fluid::SolidEdge> stress(
+          metric, grid, weight, fields.solids.velocity[j], fluid::SolidEdge(fraction));
       const Index s = grid.stride(int(axis));
       double* a = fields.solids.acceleration[j][axis].data();
       const double per_density = 1 / constants.density[j], floor = diffusion_floor(constants, j);
@@ -96,14 +105,21 @@ void add_viscosity_in(const Constants& constants, const fluid::Boundaries& bound
 }  // namespace
 
 void strain_rates(const Constants& constants, const fluid::Boundaries& boundaries, Fields& fields) {
-  constants.grid.dimensions == 2 ? core::in_vectors<strain_rates_in<2>>(constants, boundaries, fields)
-                                 : core::in_vectors<strain_rates_in<3>>(constants, boundaries, fields);
+  core::with_metric(constants.grid, [&]<class Metric>(const Metric& metric) {
+    constants.grid.dimensions == 2
+        ? core::in_vectors<strain_rates_in<2, Metric>>(metric, constants, boundaries, fields)
+        : core::in_vectors<strain_rates_in<3, Metric>>(metric, constants, boundaries, fields);
+  });
 }
 
 void add_solids_viscosity(const Constants& constants, const fluid::Boundaries& boundaries, Fields& fields,
                           core::Field& weight) {
-  constants.grid.dimensions == 2 ? core::in_vectors<add_viscosity_in<2>>(constants, boundaries, fields, weight)
-                                 : core::in_vectors<add_viscosity_in<3>>(constants, boundaries, fields, weight);
+  core::with_metric(constants.grid, [&]<class Metric>(const Metric& metric) {
+    if (constants.grid.dimensions == 2)
+      core::in_vectors<add_viscosity_in<2, Metric>>(metric, constants, boundaries, fields, weight);
+    else
+      core::in_vectors<add_viscosity_in<3, Metric>>(metric, constants, boundaries, fields, weight);
+  });
 }
 
 }  // namespace polybed::tfm

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/numerics/metric.hpp"
 #include "core/numerics/ranks.hpp"
 #include "tfm/fast_drag.hpp"
 
@@ -32,10 +33,15 @@ struct FastestRate {
 
 double courant_rate(const core::Grid& grid, const core::FaceField& velocity, Index c) {
   double rate = 0;
-  for (int axis = 0; axis < grid.dimensions; ++axis) {
-    const double* u = velocity[std::size_t(axis)].data();
-    rate += std::max(std::abs(u[c]), std::abs(u[c + grid.stride(axis)])) / grid.spacing[std::size_t(axis)];
-  }
+  core::with_metric(grid, [&](const auto& metric) {
+    for (int axis = 0; axis < grid.dimensions; ++axis) {
+      const auto a = std::size_t(axis);
+      const double* u = velocity[a].data();
+      const Index next = c + grid.stride(axis);
+      rate += metric.per_volume(c) *
+              std::max(metric.open(a, c) * std::abs(u[c]), metric.open(a, next) * std::abs(u[next])) / grid.spacing[a];
+    }
+  });
   return rate;
 }
 

@@ -14,6 +14,10 @@ namespace polybed::core {
 enum class Boundary { wall, periodic };
 constexpr std::array<std::string_view, 2> names(Boundary) { return {"wall", "periodic"}; }
 
+/// Of the cross-section of a column; axisymmetric: round, and everything alike all around its axis.
+enum class ColumnShape { box, cylinder, axisymmetric };
+constexpr std::array<std::string_view, 3> names(ColumnShape) { return {"box", "cylinder", "axisymmetric"}; }
+
 /// Whether solids leave at the top.
 enum class Outlet { screen, open };
 constexpr std::array<std::string_view, 2> names(Outlet) { return {"screen", "open"}; }

@@ -40,9 +40,9 @@ std::vector<double> solids_of_bed(const Scene& scene) {
   const Bed& bed = scene.bed;
   std::vector<double> solids;
   for (std::size_t j = 0; j < scene.species.size(); ++j)
-    solids.push_back(bed.particles.empty() ? bed.volume_share[j] * bed.static_height * bed.solids_fraction
-                                           : volume_of(bed.particles[j], scene.species[j]) /
-                                                 (scene.column.size[0] * scene.column.size[2]));
+    solids.push_back(bed.particles.empty()
+                         ? bed.volume_share[j] * bed.static_height * bed.solids_fraction
+                         : volume_of(bed.particles[j], scene.species[j]) / scene.column.cross_section());
   return solids;
 }
 

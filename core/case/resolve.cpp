@@ -21,6 +21,10 @@ void fill_size(Scene& scene) {
     c.size = {c.given_size[0], c.given_size[2], c.given_size[1]};
     return;
   }
+  if (c.around_axis()) {  // the depth that gives it the area of the circle
+    c.size = {c.given_size[0], c.given_size[1], std::numbers::pi * c.given_size[0]};
+    return;
+  }
   double smallest = 1;
   for (const Species& s : scene.species) smallest = std::min(smallest, s.diameter);
   const double skin = scene.dem.skin.value_or(0.1 * smallest);
@@ -44,7 +48,7 @@ void fill_gravity(Column& column) {
 void fill_inlet(Scene& scene) {
   Inlet& inlet = scene.inlet;
   if (inlet.flow_rate.empty() || !inlet.superficial_velocity.empty()) return;
-  const double area = scene.column.size[0] * scene.column.size[2];
+  const double area = scene.column.cross_section();
   for (const auto& [time, flow] : inlet.flow_rate) inlet.superficial_velocity.emplace_back(time, flow / area);
   inlet.flow_rate.clear();
 }
@@ -52,7 +56,7 @@ void fill_inlet(Scene& scene) {
 /// Shares and height of particles that are counted.
 void fill_amount(Scene& scene) {
   Bed& bed = scene.bed;
-  const double area = scene.column.size[0] * scene.column.size[2];
+  const double area = scene.column.cross_section();
   double total = 0;
   bed.volume_share.clear();
   for (std::size_t j = 0; j < scene.species.size(); ++j) {

@@ -102,26 +102,26 @@ Rule is_a_bracket(const std::string& key, std::vector<double> Inversion::*bracke
 }
 
 std::vector<Rule> of_a_flow_rate() {
-  return {
-      {{"inlet.flow_rate", "inlet.superficial_velocity"},
-       "inlet.flow_rate and inlet.superficial_velocity both say how much flows in: give one of them",
-       [](const Scene& scene) {
-         return broken_if(!scene.inlet.flow_rate.empty() && !scene.inlet.superficial_velocity.empty());
-       },
-       true},
-      {{"inlet.flow_rate", "column.depth", "column.size"},
-       "inlet.flow_rate in two dimensions needs column.depth: without it there is no area that it flows through",
-       [](const Scene& scene) {
-         return broken_if(!scene.inlet.flow_rate.empty() && scene.column.given_size.size() == 2 && !scene.column.depth);
-       },
-       true},
-      {{"inlet.flow_rate", "column.size", "column.depth"},
-       "inlet.flow_rate makes {} m/s over the column's cross-section; at most 1000 m/s",
-       [](const Scene& scene) {
-         for (const auto& [time, velocity] : scene.inlet.superficial_velocity)
-           if (std::abs(velocity) > 1e3) return Broken({fmt::format("{:.4g}", velocity)});
-         return Broken();
-       }}};
+  return {{{"inlet.flow_rate", "inlet.superficial_velocity"},
+           "inlet.flow_rate and inlet.superficial_velocity both say how much flows in: give one of them",
+           [](const Scene& scene) {
+             return broken_if(!scene.inlet.flow_rate.empty() && !scene.inlet.superficial_velocity.empty());
+           },
+           true},
+          {{"inlet.flow_rate", "column.depth", "column.size"},
+           "inlet.flow_rate in two dimensions needs column.depth: without it there is no area that it flows through",
+           [](const Scene& scene) {
+             return broken_if(!scene.inlet.flow_rate.empty() && scene.column.given_size.size() == 2 &&
+                              !scene.column.depth && !scene.column.around_axis());
+           },
+           true},
+          {{"inlet.flow_rate", "column.size", "column.depth"},
+           "inlet.flow_rate makes {} m/s over the column's cross-section; at most 1000 m/s",
+           [](const Scene& scene) {
+             for (const auto& [time, velocity] : scene.inlet.superficial_velocity)
+               if (std::abs(velocity) > 1e3) return Broken({fmt::format("{:.4g}", velocity)});
+             return Broken();
+           }}};
 }
 
 std::vector<Rule> of_the_fluid() {

@@ -1,6 +1,13 @@
 #include "core/case/scene.hpp"
 
+#include <numbers>
+
 namespace polybed::core {
+
+double Column::cross_section() const {
+  const double square = size[0] * size[2];
+  return is_round() ? std::numbers::pi / 4 * square : square;
+}
 
 Substance Fluid::substance() const {
   if (name == "none") return Substance::none;

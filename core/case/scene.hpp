@@ -16,6 +16,7 @@
 namespace polybed::core {
 
 struct Column {
+  ColumnShape shape = ColumnShape::box;   ///< a cylinder is upright; its diameter is the width and the depth
   std::vector<double> given_size;         ///< as the case gives it: width, height or width, depth, height, m
   std::vector<std::int64_t> given_cells;  ///< likewise
   std::optional<double> depth;            ///< of a 2-D column, m; else twice the largest diameter and skin
@@ -30,6 +31,11 @@ struct Column {
   double shear_rate = 0;                  ///< Lees-Edwards, dv_x/dy, 1/s; key of [dem]
   Outlet outlet = Outlet::screen;
   bool closed = false;  ///< walls all round: no inlet, no outlet
+
+  [[nodiscard]] bool is_round() const { return shape == ColumnShape::cylinder; }
+  [[nodiscard]] bool around_axis() const { return shape == ColumnShape::axisymmetric; }
+  /// Area of its cross-section, m2.
+  [[nodiscard]] double cross_section() const;
 };
 
 /// A fluid whose properties are known by its name, another, or none.

@@ -21,6 +21,10 @@ Table column_table() {
   return table(
       "column", &Scene::column,
       {
+          key(&Column::shape, "shape",
+              help("of the cross-section. cylinder: upright and round, size = [diameter, diameter, height]; "
+                   "axisymmetric: the same in two dimensions, everything alike all around the axis, size = [radius, "
+                   "height], for the TFM")),
           key(&Column::given_size, "size", dimension::length, above(0, 1e3), Mark::required,
               help("width, height; three numbers make it 3-D: width, depth, height")),
           key(&Column::given_cells, "cells", range(1, 1e6), Mark::required,

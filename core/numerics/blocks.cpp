@@ -7,6 +7,7 @@
 
 #include "core/error.hpp"
 #include "core/numerics/halo.hpp"
+#include "core/numerics/metric.hpp"
 #include "core/numerics/mpi.hpp"
 
 namespace polybed::core {
@@ -78,7 +79,9 @@ Grid grid_of(const Column& column, const std::shared_ptr<const Ranks>& ranks) {
   for (std::size_t d = 0; d < 3; ++d) grid.spacing[d] = column.size[d] / column.cells[d];
   grid.periodic[0] = column.sides == core::Boundary::periodic;
   grid.periodic[2] = column.sides == core::Boundary::periodic && column.dimensions == 3;
-  return block_of(grid, ranks);
+  Grid block = block_of(grid, ranks);
+  block.metric = metric_of(block, column.shape);
+  return block;
 }
 
 Grid whole_column(const Grid& block) {

@@ -1,4 +1,5 @@
-// The uniform staggered grid of a column, or of the block of it that this rank owns, and how its fields lie in memory.
+// The staggered grid of a column, or of the block of it that this rank owns, and how its fields lie in memory. Its
+// cells are alike; what of them a round column leaves open stands in its metric.
 //
 // Axes: 0 = x (width), 1 = y (height, upward), 2 = z (depth; one cell thick in 2-D). Every field, on cells or
 // on faces of one axis, is one array over the same padded box, so that a cell and its low faces share an
@@ -14,6 +15,7 @@
 namespace polybed::core {
 
 class Ranks;
+struct Metric;
 
 using Index = std::ptrdiff_t;
 
@@ -25,11 +27,12 @@ struct Grid {
   std::array<double, 3> spacing{1, 1, 1};             ///< cell size, m (2-D: spacing[2] is the depth)
   std::array<bool, 3> periodic{false, false, false};  ///< sides joined
 
-  std::array<int, 3> before{0, 0, 0};  ///< cells of the column on other ranks, towards lower indices
-  std::array<int, 3> after{0, 0, 0};   ///< and towards higher ones
-  std::array<int, 3> blocks{1, 1, 1};  ///< of the column, along each axis
-  std::array<int, 3> block{0, 0, 0};   ///< which of them this is
-  std::shared_ptr<const Ranks> ranks;  ///< who owns them; null: the whole column is here
+  std::array<int, 3> before{0, 0, 0};    ///< cells of the column on other ranks, towards lower indices
+  std::array<int, 3> after{0, 0, 0};     ///< and towards higher ones
+  std::array<int, 3> blocks{1, 1, 1};    ///< of the column, along each axis
+  std::array<int, 3> block{0, 0, 0};     ///< which of them this is
+  std::shared_ptr<const Ranks> ranks;    ///< who owns them; null: the whole column is here
+  std::shared_ptr<const Metric> metric;  ///< of a round column; null: every cell is open
 
   /// Ghost layers along an axis: none where the axis is not active.
   [[nodiscard]] int ghosts(int axis) const { return axis < dimensions ? halo : 0; }
@@ -68,6 +71,7 @@ struct Grid {
   [[nodiscard]] double smallest_spacing() const {
     return *std::min_element(spacing.begin(), spacing.begin() + dimensions);
   }
+  /// Of a whole cell, m3.
   [[nodiscard]] double cell_volume() const { return spacing[0] * spacing[1] * spacing[2]; }
   /// Centre of cell i of an axis, m; the column begins at 0.
   [[nodiscard]] double centre(int axis, int i) const {

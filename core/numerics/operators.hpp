@@ -1,9 +1,9 @@
-// The discrete operators of the staggered grid, and the slope limiter. Nothing else assumes equal spacing.
+// The discrete operators of the staggered grid, and the slope limiter.
 #pragma once
 
 #include <type_traits>
 
-#include "core/numerics/field.hpp"
+#include "core/numerics/metric.hpp"
 
 namespace polybed::core {
 
@@ -47,7 +47,7 @@ struct LimitedFace {
 /// Mean of a cell field on the face c of an axis with stride s.
 [[nodiscard]] inline double face_mean(const double* q, Index c, Index s) { return 0.5 * (q[c - s] + q[c]); }
 
-/// Divergence of a face field in all owned cells: out[c] = sum over axes (f[c + s] - f[c]) / h.
+/// Divergence of a face field in all owned cells: out[c] = sum over axes (alpha f[c + s] - alpha f[c]) / (theta h).
 void divergence(const Grid& grid, const FaceField& faces, Field& out);
 
 /// Adds -(U.grad)U of a velocity to its acceleration on the faces of one axis within a box, of first order. Ghosts of
@@ -80,21 +80,24 @@ inline void subtract_convection(const Grid& grid, const FaceField& velocity, int
 /// axes, carries it: between two cells of U, each half of two cells of the grid, F is the mean of what passes both, so
 /// that the sum over cells of U times the mean of dphi/dt = -div F, and of this, telescopes. Face: UpwindFace or
 /// LimitedFace. Ghosts of U must be filled, and those of F where other cells own them.
-template <class Face>
-void subtract_carried(const Grid& grid, const FaceField& flux, const Field& velocity, int axis, const Box& box,
-                      Field& rate) {
+template <class Face, class Metric>
+void subtract_carried(const Metric& metric, const Grid& grid, const FaceField& flux, const Field& velocity, int axis,
+                      const Box& box, Field& rate) {
   const double* u = velocity.data();
   double* to = rate.data();
   const Index s = grid.stride(axis);
   for (int along = 0; along < grid.dimensions; ++along) {
-    const double* f = flux[std::size_t(along)].data();
+    const auto b = std::size_t(along);
+    const double* f = flux[b].data();
     const Index t = grid.stride(along);
-    const double per_length = 1 / grid.spacing[std::size_t(along)];
+    const double per_length = 1 / grid.spacing[b];
+    const auto through = [=](Index c) { return metric.open(b, c) * f[c]; };
     for_each_row(grid, box, [&](Index begin, Index end) {
 #pragma GCC ivdep
       for (Index c = begin; c < end; ++c) {
-        const double in = 0.5 * (f[c - s] + f[c]), out = 0.5 * (f[c + t - s] + f[c + t]);
-        to[c] -= per_length * (out * (Face::at(u, c + t, t, out) - u[c]) - in * (Face::at(u, c, t, in) - u[c]));
+        const double in = 0.5 * (through(c - s) + through(c)), out = 0.5 * (through(c + t - s) + through(c + t));
+        to[c] -= metric.per_volume_on(std::size_t(axis), c) * per_length *
+                 (out * (Face::at(u, c + t, t, out) - u[c]) - in * (Face::at(u, c, t, in) - u[c]));
       }
     });
   }

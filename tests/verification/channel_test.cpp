@@ -1,6 +1,9 @@
 // Laminar flow between walls: the viscous stress of the fluid and the wall.
 #include <gtest/gtest.h>
 
+#include <numbers>
+
+#include "core/numerics/metric.hpp"
 #include "scenes/record.hpp"
 
 namespace polybed::scenes {
@@ -58,6 +61,68 @@ TEST(Channel, ConvergesToPoiseuillesParabolaInSecondOrder) {
   EXPECT_LT(fine.gradient, 0.01);
   // The same gap along the depth of a wide column: the walls a metre apart do not reach its middle.
   EXPECT_NEAR(channel(8, 3).profile, coarse.profile, 1e-4);
+}
+
+/// The same in a pipe: U = 2 <U> (1 - (r/R)^2), 8 mu <U>/R^2; errors by area.
+/// \param n  cells to a radius around an axis, across a cylinder
+Channel pipe(int n, core::ColumnShape shape) {
+  constexpr double radius = 0.005, velocity = 0.02;
+  const bool whole = shape == core::ColumnShape::cylinder;
+  const int rows = whole ? 3 * n : 6 * n;
+  core::Scene scene = uniform_bed(1e-3, 2000, 1000, 0.1, 0.5, rows, 6 * radius);
+  scene.column.shape = shape;
+  scene.column.dimensions = whole ? 3 : 2;
+  scene.column.size = {whole ? 2 * radius : radius, 6 * radius, whole ? 2 * radius : std::numbers::pi * radius};
+  scene.column.cells = {n, rows, whole ? n : 1};
+  scene.column.sides = core::Boundary::wall;
+  scene.bed.static_height = 0;
+  scene.bed.start_solids_fraction = 0.5;
+  scene.inlet.superficial_velocity = {{0.0, velocity}};
+  scene.effects = {{"drag", "stokes"}, {"fluid_stress", "newtonian"}};
+  scene.tfm.rtol = 1e-4;
+  scene.tfm.pressure_tolerance = 1e-8;
+  core::Timers timers;
+  tfm::Model model(scene, timers);
+  advance(model, 0.5);  // two times R^2/nu, of which the slowest disturbance takes a sixth to fall to 1/e
+  const core::Grid& grid = model.constants().grid;
+  const auto& u = model.fields().fluid.velocity[1];
+  const auto& p = model.fields().fluid.pressure;
+  const int row = rows * 2 / 3;
+  Channel error{0, 0};
+  double area = 0, below = 0, above = 0;
+  for (int k = 0; k < grid.cells[2]; ++k)
+    for (int i = 0; i < n; ++i) {
+      const auto c = std::size_t(grid.index(i, row, k));
+      const double theta = grid.metric->volume[c], x = grid.centre(0, i) - (whole ? radius : 0),
+                   z = whole ? grid.centre(2, k) - radius : 0, share = (x * x + z * z) / (radius * radius);
+      area += theta;
+      below += theta * p[std::size_t(grid.index(i, row - 1, k))];
+      above += theta * p[std::size_t(grid.index(i, row + 1, k))];
+      if (share < 1) error.profile += theta * std::abs(u[c] / velocity - 2 * (1 - share));
+    }
+  error.profile /= area;
+  const double gradient = (below - above) / (area * 2 * grid.spacing[1]);
+  error.gradient = std::abs(gradient / (8 * 0.1 * velocity / (radius * radius)) - 1);
+  return error;
+}
+
+TEST(Pipe, ConvergesToItsParabolaInSecondOrderAroundAnAxis) {
+  const Channel coarse = pipe(16, core::ColumnShape::axisymmetric), fine = pipe(32, core::ColumnShape::axisymmetric);
+  record("pipe around its axis: profile, 32", fine.profile);
+  record("pipe around its axis: gradient, 32", fine.gradient);
+  EXPECT_GT(std::log2(coarse.profile / fine.profile), 1.9);
+  EXPECT_GT(std::log2(coarse.gradient / fine.gradient), 1.9);
+  EXPECT_LT(fine.profile, 1e-3);
+  EXPECT_LT(fine.gradient, 1e-3);
+}
+
+// Cells that the wall cuts: one and a half orders, and a percent of the resistance with 16 cells across.
+TEST(Pipe, ConvergesWhereItsWallCutsCells) {
+  const Channel coarse = pipe(8, core::ColumnShape::cylinder), fine = pipe(16, core::ColumnShape::cylinder);
+  record("pipe of cut cells: profile, 16", fine.profile);
+  record("pipe of cut cells: gradient, 16", fine.gradient);
+  EXPECT_GT(std::log2(coarse.profile / fine.profile), 1.5);
+  EXPECT_LT(fine.gradient, 0.01);
 }
 
 }  // namespace

@@ -164,6 +164,11 @@ void FrictionalStress::hold_surface(Fields& fields) const {
 }
 
 void FrictionalStress::add_bulk_viscosity(Fields& fields) const {
+  core::with_metric(constants_.grid, [&](const auto& metric) { add_bulk_viscosity(metric, fields); });
+}
+
+template <class Metric>
+void FrictionalStress::add_bulk_viscosity(const Metric& metric, Fields& fields) const {
   const core::Grid& grid = constants_.grid;
   const double* slope = fields.stress.slope.data();
   double *pressure = fields.stress.pressure.data(), *damping = fields.stress.damping.data();
@@ -176,8 +181,11 @@ void FrictionalStress::add_bulk_viscosity(Fields& fields) const {
         density += fields.share[j][std::size_t(c)] * constants_.density[j];
         double divergence = 0;
         for (int axis = 0; axis < grid.dimensions; ++axis) {
-          const double* u = fields.solids.velocity[j][std::size_t(axis)].data();
-          divergence += (u[c + grid.stride(axis)] - u[c]) / grid.spacing[std::size_t(axis)];
+          const auto a = std::size_t(axis);
+          const double* u = fields.solids.velocity[j][a].data();
+          const Index next = c + grid.stride(axis);
+          divergence +=
+              metric.per_volume(c) * (metric.open(a, next) * u[next] - metric.open(a, c) * u[c]) / grid.spacing[a];
         }
         compression += fields.solids.fraction[j][std::size_t(c)] * divergence;
       }

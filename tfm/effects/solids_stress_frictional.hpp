@@ -45,6 +45,8 @@ class FrictionalStress : public StressEffect {
   /// dust is held, and less the thinner it is: noise in a cell without solids has no stiffness.
   void hold_surface(Fields& fields) const;
   void add_bulk_viscosity(Fields& fields) const;
+  template <class Metric>
+  void add_bulk_viscosity(const Metric& metric, Fields& fields) const;
   template <class Body>
   void for_each_cell_with_packing(const Fields& fields, const core::Box& box, Body&& body) const;
 

@@ -87,16 +87,24 @@ void KineticStress::add_row(Fields& fields, Index begin) {
 void KineticStress::set_motion(const Fields& fields, Index begin) {
   const core::Grid& grid = constants_.grid;
   std::array<double, KineticRows::most + 1> low, high;
+  const auto open = [&](std::size_t axis, Index from, std::size_t faces, double* flow) {
+    for (std::size_t f = 0; grid.metric && f < faces; ++f) flow[f] *= grid.metric->open[axis][std::size_t(from) + f];
+  };
   for (std::size_t axis = 0; axis < std::size_t(grid.dimensions); ++axis) {
     if (axis == 0) {  // a cell's high face is its neighbour's low one
       flow_on_faces(fields, axis, begin, rows_.cells + 1, low.data());
+      open(axis, begin, rows_.cells + 1, low.data());
       core::in_vectors<add_divergence>(rows_, low.data(), low.data() + 1, grid.spacing[axis]);
       continue;
     }
     flow_on_faces(fields, axis, begin, rows_.cells, low.data());
     flow_on_faces(fields, axis, begin + grid.stride(int(axis)), rows_.cells, high.data());
+    open(axis, begin, rows_.cells, low.data());
+    open(axis, begin + grid.stride(int(axis)), rows_.cells, high.data());
     core::in_vectors<add_divergence>(rows_, low.data(), high.data(), grid.spacing[axis]);
   }
+  for (std::size_t c = 0; grid.metric && c < rows_.cells; ++c)
+    rows_.divergence[c] *= grid.metric->per_volume[std::size_t(begin) + c];
   for (std::size_t j = 0; j < constants_.species(); ++j)
     core::in_vectors<add_strain>(rows_, &fields.share[j][std::size_t(begin)],
                                  &fields.stress.strain[j][std::size_t(begin)]);

@@ -1,0 +1,103 @@
+// What of a grid's equal cells is open where the wall of a round column does not follow them, or where they lie around
+// an axis: the one place that knows the shape of a column.
+//
+// A cell has the open volume theta V, a face the open area alpha A, of those of a whole cell and face:
+//
+//   theta_c h dphi/dt = -sum alpha_f phi_f U_f,   sum alpha_f J_f = 0.
+//
+// A face's momentum has the mean volume of the two cells beside it, so that its convection telescopes. Around an axis
+// alpha and theta grow with the radius, and a box as wide as the radius and pi times as deep has the column's area.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <vector>
+
+#include "core/case/choices.hpp"
+#include "core/numerics/field.hpp"
+
+namespace polybed::core {
+
+/// Of the whole column, the same at every height; x runs fastest.
+struct CrossSection {
+  int width = 0, depth = 0;    ///< cells along x and z
+  std::vector<double> volume;  ///< theta; 0: closed
+  std::vector<double> open_x;  ///< alpha of the low faces along x, width + 1 a row
+  std::vector<double> open_z;  ///< and along z, depth + 1 rows; empty in two dimensions
+  std::vector<double> wall;    ///< of curved walls: area over distance and open volume, 1/m2
+  std::vector<double> radius;  ///< of the low faces along x, m; empty unless the cells lie around an axis
+
+  [[nodiscard]] double& volume_of(int i, int k) { return volume[at(i, k)]; }
+  [[nodiscard]] double& x_face(int i, int k) { return open_x[std::size_t(i + (width + 1) * k)]; }
+  [[nodiscard]] double& z_face(int i, int k) { return open_z[std::size_t(i + width * k)]; }
+  [[nodiscard]] std::size_t at(int i, int k) const { return std::size_t(i) + std::size_t(width) * std::size_t(k); }
+};
+
+struct Metric {
+  CrossSection section;
+  Field volume;              ///< theta
+  Field per_volume;          ///< 1/theta; 0 where closed
+  FaceField open;            ///< alpha; 0 where closed
+  FaceField per_volume_on;   ///< 1 over the volume of a face's momentum
+  FaceField wall;            ///< what a curved wall's no-slip takes from a velocity, over the kinematic viscosity, 1/m2
+  Field per_radius;          ///< 1/r of cells, 1/m; 0 in a box and a cylinder
+  Field per_radius_on;       ///< and of faces along x
+  bool around_axis = false;  ///< the low end along x is an axis and no wall
+  std::array<std::vector<Index>, 3> closed;  ///< faces that a wall closes between cells of the padded box
+};
+
+/// Of a block, or the whole column, with the shape of the column that it is a part of; null for a box.
+[[nodiscard]] std::shared_ptr<const Metric> metric_of(const Grid& grid, ColumnShape shape);
+
+/// Cells all alike: nothing is left of it in a kernel.
+struct UniformMetric {
+  static constexpr bool radial = false;
+  static constexpr double volume(Index) { return 1; }
+  static constexpr double per_volume(Index) { return 1; }
+  static constexpr double open(std::size_t, Index) { return 1; }
+  static constexpr double per_volume_on(std::size_t, Index) { return 1; }
+};
+
+class GeneralMetric {
+ public:
+  static constexpr bool radial = true;
+  explicit GeneralMetric(const Metric& metric)
+      : volume_(metric.volume.data()),
+        per_volume_(metric.per_volume.data()),
+        per_radius_(metric.per_radius.data()),
+        per_radius_on_(metric.per_radius_on.data()) {
+    for (std::size_t a = 0; a < 3; ++a) {
+      open_[a] = metric.open[a].data();
+      per_volume_on_[a] = metric.per_volume_on[a].data();
+    }
+  }
+  [[nodiscard]] double volume(Index c) const { return volume_[c]; }
+  [[nodiscard]] double per_volume(Index c) const { return per_volume_[c]; }
+  [[nodiscard]] double open(std::size_t axis, Index f) const { return open_[axis][f]; }
+  [[nodiscard]] double per_volume_on(std::size_t axis, Index f) const { return per_volume_on_[axis][f]; }
+  [[nodiscard]] double per_radius(Index c) const { return per_radius_[c]; }
+  [[nodiscard]] double per_radius_on(Index f) const { return per_radius_on_[f]; }
+
+ private:
+  const double *volume_, *per_volume_, *per_radius_, *per_radius_on_;
+  std::array<const double*, 3> open_{}, per_volume_on_{};
+};
+
+/// Calls act(UniformMetric) or act(GeneralMetric), for loops that are compiled for each.
+template <class Act>
+void with_metric(const Grid& grid, Act&& act) {
+  grid.metric ? act(GeneralMetric(*grid.metric)) : act(UniformMetric());
+}
+
+/// Open area of the faces of a layer: cells of it that are as large as a whole one.
+[[nodiscard]] double open_cells_of_layer(const Grid& grid);
+
+/// What the solvers of elliptic equations, which know equal cells alone, take for coefficients on faces and a source on
+/// cells: each times its open share. Closed faces between cells keep a billionth, so that no cell stands alone.
+void weigh_faces(const Grid& grid, FaceField& coefficient);
+void weigh_cells(const Grid& grid, Field& source);
+
+/// Sets a field on faces to 0 where a wall closes them.
+void hold_closed(const Grid& grid, FaceField& faces);
+
+}  // namespace polybed::core
