@@ -38,9 +38,10 @@ std::pair<Vector, Vector> centres(const core::Feed& feed, const Box& box, double
   return {low, high};
 }
 
-double area_of(const core::Feed& feed, const Box& box) {
+double area_of(const core::Feed& feed, const core::Column& column) {
+  if (feed.from.empty()) return column.cross_section();
   const auto width = [&](std::size_t n, std::size_t k) {
-    return n < feed.from.size() ? feed.to[n] - feed.from[n] : box.size[k];
+    return n < feed.from.size() ? feed.to[n] - feed.from[n] : column.size[k];
   };
   return width(0, 0) * width(1, 2);
 }
@@ -57,7 +58,7 @@ Feeding::Feeding(const core::Scene& scene, const Materials& materials, const Box
     // The list is made when the fastest particles have moved by half of the skin: no more often because of feeds.
     feeds_.push_back({std::int32_t(found - materials.species().begin()), feed.at == core::FeedEnd::top, feed.velocity,
                       0.5 * skin / feed.velocity, fluid::Ramp(feed.superficial_velocity),
-                      area_of(feed, box) / closures::sphere_volume(radius), low, high});
+                      area_of(feed, scene.column) / closures::sphere_volume(radius), low, high});
   }
 }
 

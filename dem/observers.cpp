@@ -140,7 +140,7 @@ measures::ParticleProfile profile_of(const Model& model, const measures::Slabs& 
 Observers::Observers(const Model& model, const core::Scene& scene, const std::filesystem::path& directory,
                      std::optional<RunStart> start, const FluidTotals& fluid, std::optional<double> resume_time)
     : model_(model),
-      slabs_{model.box().size[0] * model.box().size[2], model.box().size[1], std::size_t(scene.column.cells[1])},
+      slabs_{scene.column.cross_section(), model.box().size[1], std::size_t(scene.column.cells[1])},
       history_(measures::bed_table(), history_table(parts_of(model, scene.dem.ledger)), names_of(model)),
       particles_(directory, {model.box().size, model.box().periodic, names_of(model)}, resume_time, model.share()),
       totals_(totals_of(model)),

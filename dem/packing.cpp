@@ -59,8 +59,9 @@ double floor_of(const core::Scene& scene) {
 }
 
 /// Of each species in a part of the bed.
-std::vector<std::int64_t> numbers_in(const core::BedPart& part, const Materials& materials, const Box& box) {
-  const double area = part.area() * box.size[0] * box.size[2];
+std::vector<std::int64_t> numbers_in(const core::BedPart& part, const Materials& materials,
+                                     const core::Column& column) {
+  const double area = part.area() * column.cross_section();
   std::vector<std::int64_t> numbers;
   for (std::size_t j = 0; j < part.solids.size(); ++j)
     numbers.push_back(std::llround(part.solids[j] * area / closures::sphere_volume(materials.species()[j].radius)));
@@ -74,8 +75,8 @@ double start_fraction(const core::BedPart& part) {
 
 /// Height that particles fill over a part's area at the solids fraction of the start, m.
 double height_of(const std::vector<std::int64_t>& numbers, const core::BedPart& part, const Materials& materials,
-                 const Box& box) {
-  const double area = box.size[0] * box.size[2] * part.area();
+                 const core::Column& column) {
+  const double area = column.cross_section() * part.area();
   double height = 0;
   for (std::size_t j = 0; j < numbers.size(); ++j)
     height +=
@@ -90,8 +91,8 @@ std::vector<Group> groups_of(const core::Scene& scene, const Materials& material
   std::vector<Group> groups;
   std::vector<double> height;
   for (const core::BedPart& part : parts) {
-    groups.push_back({numbers_in(part, materials, box), {}});
-    height.push_back(height_of(groups.back().numbers, part, materials, box));
+    groups.push_back({numbers_in(part, materials, scene.column), {}});
+    height.push_back(height_of(groups.back().numbers, part, materials, scene.column));
   }
   const double floor = floor_of(scene);
   std::vector<core::Extent> extents = core::stacked(parts, height);
@@ -186,10 +187,10 @@ std::string no_room_in(const Group& group, const Materials& materials, const Box
 
 }  // namespace
 
-std::vector<std::int64_t> particle_numbers(const core::Scene& scene, const Materials& materials, const Box& box) {
+std::vector<std::int64_t> particle_numbers(const core::Scene& scene, const Materials& materials) {
   std::vector<std::int64_t> numbers(materials.species().size(), 0);
   for (const core::BedPart& part : core::start_parts(scene)) {
-    const std::vector<std::int64_t> here = numbers_in(part, materials, box);
+    const std::vector<std::int64_t> here = numbers_in(part, materials, scene.column);
     for (std::size_t j = 0; j < numbers.size(); ++j) numbers[j] += here[j];
   }
   return numbers;

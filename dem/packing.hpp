@@ -12,8 +12,7 @@
 namespace polybed::dem {
 
 /// Numbers of particles of each species: as the case gives them, or from the volumes of the bed.
-[[nodiscard]] std::vector<std::int64_t> particle_numbers(const core::Scene& scene, const Materials& materials,
-                                                         const Box& box);
+[[nodiscard]] std::vector<std::int64_t> particle_numbers(const core::Scene& scene, const Materials& materials);
 
 /// Why the particles of a start that is not a list have no room in the column; empty if they have.
 [[nodiscard]] std::string no_room_for(const core::Scene& scene, const Materials& materials, const Box& box);

@@ -90,10 +90,10 @@ double settling_time(const core::Scene& scene, const Materials& materials, const
   if (!scene.fluid.present()) return dry;
   const relevance::FluidConstants fluid = relevance::fluid_constants(scene.fluid);
   double slowest = std::numeric_limits<double>::infinity(), solids = 0;
-  const std::vector<std::int64_t> numbers = particle_numbers(scene, materials, box);
+  const std::vector<std::int64_t> numbers = particle_numbers(scene, materials);
   for (std::size_t j = 0; j < numbers.size(); ++j) {
     const Species& s = materials.species()[j];
-    solids += double(numbers[j]) * closures::sphere_volume(s.radius) / (box.size[0] * box.size[2]);
+    solids += double(numbers[j]) * closures::sphere_volume(s.radius) / scene.column.cross_section();
     if (numbers[j] > 0)
       slowest = std::min(slowest, closures::settling_velocity(2 * s.radius, s.density - fluid.density, fluid.density,
                                                               fluid.viscosity, g));

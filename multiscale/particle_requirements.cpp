@@ -82,9 +82,9 @@ Start listed_start(const core::Scene& scene, const dem::Materials& materials) {
   return start;
 }
 
-Start start_of(const core::Scene& scene, const dem::Materials& materials, const dem::Box& box) {
+Start start_of(const core::Scene& scene, const dem::Materials& materials) {
   if (scene.bed.start.kind == core::StartKind::list) return listed_start(scene, materials);
-  Start start{dem::particle_numbers(scene, materials, box), {}};
+  Start start{dem::particle_numbers(scene, materials), {}};
   const std::int64_t count = sum_of(start.numbers);
   for (std::size_t j = 0; j < start.numbers.size(); ++j)
     start.foremost.push_back(particle(materials, j, {}, {fastest_of(scene.dem.start_speed, count), 0, 0}));
@@ -168,7 +168,7 @@ ParticleRequirements particle_requirements_of(const core::Scene& scene, const Pa
   const dem::PairLaws laws = dem::make_pair_laws(scene, materials);
   core::refuse(dem::start_rules(), scene);
   ParticleRequirements need;
-  Start start = start_of(scene, materials, box);
+  Start start = start_of(scene, materials);
   need.numbers = std::move(start.numbers);
   const dem::Speeds speeds = dem::expected_speeds(scene, materials, box, start.foremost);
   need.limits = dem::step_limits(scene, materials, laws, speeds.greatest);
@@ -215,7 +215,7 @@ void choose_stiffness(core::Scene& scene) {
     return;
   const dem::Box box = dem::box_of(scene);
   const dem::Materials materials(scene);
-  const dem::Speeds speeds = dem::known_speeds(scene, materials, box, start_of(scene, materials, box).foremost);
+  const dem::Speeds speeds = dem::known_speeds(scene, materials, box, start_of(scene, materials).foremost);
   const dem::HertzContact hertz(materials, scene.dem.tail);
   const dem::OverlapForecast overlap = dem::overlap_forecast(scene, materials, hertz, speeds.impact, dem::Met::single);
   scene.dem.youngs_modulus = dem::rounded_up(core::least_modulus * std::max(1.0, overlap.stiffening));

@@ -26,7 +26,7 @@ std::vector<double> solids_volumes(const core::Scene& scene) {
   const core::Bed& bed = scene.bed;
   std::vector<double> volume(scene.species.size(), 0.0);
   const auto one = [&](std::size_t j) { return closures::sphere_volume(0.5 * scene.species[j].diameter); };
-  const double whole = bed.static_height * bed.solids_fraction * scene.column.size[0] * scene.column.size[2];
+  const double whole = bed.static_height * bed.solids_fraction * scene.column.cross_section();
   if (bed.start.kind == core::StartKind::list)
     for (const std::int32_t j : core::read_particle_list(scene).species) volume[std::size_t(j)] += one(std::size_t(j));
   else
@@ -40,10 +40,9 @@ void measure_bed(const core::Scene& scene, Survey& s) {
   const auto& size = scene.column.size;
   s.width = scene.column.dimensions == 3 ? std::min(size[0], size[2]) : size[0];
   s.column_height = size[1];
-  const double area = size[0] * size[2];
   const std::vector<double> volume = solids_volumes(scene);
   const double all = std::accumulate(volume.begin(), volume.end(), 0.0);
-  s.mean_fraction = std::min(all / (area * s.column_height), 1.0);
+  s.mean_fraction = std::min(all / (scene.column.cross_section() * s.column_height), 1.0);
   s.solids_fraction = scene.bed.start_solids_fraction;
   const bool spread = scene.bed.start.kind == core::StartKind::list || scene.bed.start.kind == core::StartKind::random;
   if (spread || !(s.solids_fraction > 0)) s.solids_fraction = std::max(s.mean_fraction, 1e-9);

@@ -64,7 +64,7 @@ class BedRun {
     result_.density = s.density;
     const double rho = relevance::fluid_constants(box_.fluid).density;
     unit_ = std::abs(s.density - rho) * box_.column.gravity * result_.diameter;
-    area_ = box_.column.size[0] * box_.column.size[2];
+    area_ = box_.column.cross_section();
     height_ = double(box_.bed.particles[0]) * closures::sphere_volume(s.radius) / (area_ * point.phi);
   }
 
