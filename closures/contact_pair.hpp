@@ -3,6 +3,8 @@
 // infinite radius and mass. All SI.
 #pragma once
 
+#include <cmath>
+
 namespace polybed::closures {
 
 /// Young's modulus E, Pa, > 0 (infinite: rigid), and Poisson ratio nu in (-1, 0.5].
@@ -18,6 +20,15 @@ struct NormalForce {
 /// R* = R_i R_j/(R_i + R_j), m; infinity stands for a wall.
 [[nodiscard]] inline double reduced_radius(double radius_i, double radius_j) {
   return 1 / (1 / radius_i + 1 / radius_j);
+}
+
+/// R*, m, of a sphere at a round wall: 1/R* = sqrt((1/R_i) (1/R_i - k)), the geometric mean of the two relative
+/// curvatures, of which that along the wall is 1/R_i (Johnson, Contact Mechanics, 1985, section 4.2). The contact is
+/// taken for a circle; the force of the ellipse that it is lies above by 0.1 % at k R_i = 0.2, by 1 % at 0.5 and at -1.
+/// \param radius     R_i, m
+/// \param curvature  k, 1/m, below 1/R_i: 1/R inside a cylinder of radius R, -1/R outside, 0 of a flat wall
+[[nodiscard]] inline double reduced_radius_at_wall(double radius, double curvature) {
+  return radius / std::sqrt(1 - radius * curvature);
 }
 
 /// m* = m_i m_j/(m_i + m_j), kg; infinity stands for a wall.

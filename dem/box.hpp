@@ -30,34 +30,55 @@ struct Opening {
   }
 };
 
-/// A flat wall inside the box, along z from end to end and without thickness, that is met from either side and from its
-/// edges.
+/// A point in the plane of a plate's profile, m: x and y, or distance from the axis and y.
+using InPlane = std::array<double, 2>;
+
+/// A wall inside the box without thickness, that is met from either side and from its edges. It has a straight profile
+/// in a plane: flat ones lie along z from end to end, round ones, which are cones, about an upright axis.
 struct Plate {
-  double x = 0, y = 0;              ///< of one edge, m
+  double x = 0, y = 0;              ///< of one edge, in its plane, m
   double along_x = 1, along_y = 0;  ///< to the other edge, m
   double per_square = 1;            ///< 1 over the square of their distance, 1/m2
+
+  bool round = false;
+  double axis_x = 0, axis_z = 0;         ///< of a round one, m
+  int first_curve = 0, curve_bands = 0;  ///< of a round one: where its curvatures are among those of the box
 
   Plate() = default;
   Plate(double x0, double y0, double x1, double y1)
       : x(x0), y(y0), along_x(x1 - x0), along_y(y1 - y0), per_square(1 / (along_x * along_x + along_y * along_y)) {}
 
-  /// Where along the plate the point lies that is nearest to a centre: below 0 and above 1 beyond an edge.
-  [[nodiscard]] double share(const Vector& centre) const {
-    return ((centre[0] - x) * along_x + (centre[1] - y) * along_y) * per_square;
+  [[nodiscard]] InPlane in_plane(const Vector& centre) const {
+    if (!round) return {centre[0], centre[1]};
+    const double dx = centre[0] - axis_x, dz = centre[2] - axis_z;
+    return {std::sqrt(dx * dx + dz * dz), centre[1]};
   }
-  /// To a centre from the point of the plate that is nearest to it, m.
+  /// Where along the plate the point lies that is nearest to another: below 0 and above 1 beyond an edge.
+  [[nodiscard]] double share(const InPlane& point) const {
+    return ((point[0] - x) * along_x + (point[1] - y) * along_y) * per_square;
+  }
+  /// To a point from the one of the plate that is nearest to it, m.
+  [[nodiscard]] InPlane to(const InPlane& point) const {
+    const double within = std::clamp(share(point), 0.0, 1.0);
+    return {point[0] - x - within * along_x, point[1] - y - within * along_y};
+  }
+  /// To a centre from the point of the plate that is nearest to it, m. On the axis of a round one, along x.
   [[nodiscard]] Vector to(const Vector& centre) const {
-    const double within = std::clamp(share(centre), 0.0, 1.0);
-    return {centre[0] - x - within * along_x, centre[1] - y - within * along_y, 0};
+    const InPlane point = in_plane(centre), away = to(point);
+    if (!round || point[0] == 0) return {away[0], away[1], 0};
+    const double outward = away[0] / point[0];
+    return {outward * (centre[0] - axis_x), away[1], outward * (centre[2] - axis_z)};
   }
   enum class Part { first_edge, face, second_edge };
-  /// Which part of it is nearest to a centre. The width given to edges keeps rounding from finding two faces, or none,
+  /// Which part of it is nearest to a point. The width given to edges keeps rounding from finding two faces, or none,
   /// at a joint.
-  [[nodiscard]] Part nearest(const Vector& centre) const {
+  [[nodiscard]] Part nearest(const InPlane& point) const {
     constexpr double width = 1e-9;
-    const double at = share(centre);
+    const double at = share(point);
     return at < width ? Part::first_edge : (at > 1 - width ? Part::second_edge : Part::face);
   }
+  /// Number of the curvature that a sphere meets there, from 1 on; 0: the plate is flat there, or ends.
+  [[nodiscard]] int curve_at(const Vector& centre) const;
 };
 
 /// An edge of a plate that lies on another plate.
@@ -68,12 +89,12 @@ struct Joint {
   Plate::Part at{};  ///< on which part of the other
 };
 
-/// A flat wall, at rest, on one face of the box, or a plate inside it.
+/// A wall at rest: a face of the box, or a plate.
 struct Wall {
   int axis = 0;      ///< 0, 1, 2
   int side = 0;      ///< 0: at 0, 1: at the far end
   double place = 0;  ///< m
-  int plate = -1;    ///< which; -1: a face, and of a plate the rest is without meaning
+  int plate = -1;    ///< which; -1: a face, and of a plate the rest is without meaning, but for a bottom that is one
   [[nodiscard]] bool is_bottom() const { return axis == 1 && side == 0; }
 };
 
@@ -81,8 +102,10 @@ struct Box {
   Vector size{};  ///< along x, y (up), z, m
   std::array<bool, 3> periodic{};
   std::vector<Wall> walls;         ///< of the directions that are not periodic; none where the box is open; then plates
-  std::vector<Plate> plates;       ///< inside
+  std::vector<Plate> plates;       ///< inside; flat ones or round ones, and the side of a round box
   std::vector<Joint> joints;       ///< of the plates
+  std::vector<double> curvatures;  ///< of contacts with round plates, 1/m: above 0 from inside, below 0 from outside
+  bool round = false;              ///< its cross-section is the circle within its width and depth
   std::optional<Opening> opening;  ///< in the bottom; absent: it is whole
   bool open_top = false;           ///< particles leave through the top
   double shear_rate = 0;           ///< of Lees and Edwards: d v_x/d y, 1/s; then y is periodic
@@ -93,8 +116,14 @@ struct Box {
 
   /// A place brought back between the joined faces of a box at rest.
   [[nodiscard]] Vector wrapped(Vector x) const;
-  /// Adds a plate, and a wall that it is.
-  void add_plate(const Plate& plate);
+  /// Whether a sphere lies wholly within the side of a round box; of another box always true.
+  [[nodiscard]] bool within_side(const Place& sphere) const;
+  /// Adds a flat plate, and a wall that it is.
+  void add_plate(const Plate& plate) { walls.push_back({0, 0, 0, joined(plate)}); }
+  /// The same of a cone about the axis of the box: half its diameter and height at both ends, m.
+  void add_cone(const InPlane& from, const InPlane& to);
+  /// Makes the bottom a plate with the opening in it, so that round plates which end on it push once with it.
+  void make_bottom_a_plate();
   /// Whether a plate pushes a centre near it: not by an edge from which the centre is nearer to the face of the plate
   /// joined there, and of two that have the same edge nearest to it the one of lower number. So plates that continue
   /// each other push once.
@@ -106,6 +135,11 @@ struct Box {
     return shift > 0.5 * size[0] ? shift - size[0] : (shift < -0.5 * size[0] ? shift + size[0] : shift);
   }
   [[nodiscard]] double image_speed() const { return shear_rate * size[1]; }
+
+ private:
+  /// Adds a plate and its joints; returns its number.
+  int joined(const Plate& plate);
+  [[nodiscard]] Plate about_axis(const InPlane& from, const InPlane& to) const;
 };
 
 /// The images of one instant. An image is told by a number: how many boxes, -1, 0 or 1, it lies away along each axis.

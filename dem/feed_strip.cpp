@@ -75,8 +75,9 @@ bool FeedStrip::overlap(const Place& a, const Place& b) const {
 }
 
 bool FeedStrip::has_room_for(const Place& sphere) const {
+  if (!box_.within_side(sphere)) return false;
   for (const Plate& plate : box_.plates) {
-    const Vector away = plate.to(sphere.x);
+    const InPlane away = plate.to(plate.in_plane(sphere.x));
     if (std::hypot(away[0], away[1]) < sphere.radius) return false;
   }
   const int i = place_of(sphere.x[0], 0), k = place_of(sphere.x[2], 1);

@@ -17,7 +17,8 @@ class FeedStrip {
   /// Collective. \param top  the end at the top, or that at the bottom
   FeedStrip(const Model& model, bool top);
 
-  /// Whether a sphere would overlap none of those in the strip, no image of one, and no plate inside the box.
+  /// Whether a sphere would overlap none of those in the strip, no image of one, no plate inside the box, and not the
+  /// side of a round one.
   [[nodiscard]] bool has_room_for(const Place& sphere) const;
   void add(const Place& sphere);
 

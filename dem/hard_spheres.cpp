@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 namespace polybed::dem {
 
@@ -15,7 +16,7 @@ Box without_shear(Box box) {
 
 Region of_centre(const Region& region, double radius, const Box& box) {
   constexpr double nowhere = std::numeric_limits<double>::infinity();
-  Region bounds;
+  Region bounds = region;
   for (std::size_t k = 0; k < 3; ++k) {
     const bool free = box.periodic[k] && region.low[k] <= 0 && region.high[k] >= box.size[k];
     bounds.low[k] = free ? -nowhere : region.low[k] + radius;
@@ -25,6 +26,35 @@ Region of_centre(const Region& region, double radius, const Box& box) {
 }
 
 }  // namespace
+
+double Region::volume() const {
+  const double between = (high[0] - low[0]) * (high[1] - low[1]) * (high[2] - low[2]);
+  return round ? std::numbers::pi / 4 * between : between;
+}
+
+double Region::distance_from_axis(const Vector& x) const {
+  const auto [dx, dz] = from_axis(x);
+  return std::sqrt(dx * dx + dz * dz);
+}
+
+void Region::move_into_cylinder(Vector& x) const {
+  const auto [dx, dz] = from_axis(x);
+  const double away = distance_from_axis(x), beyond = away - radius();
+  if (!(beyond > 0)) return;
+  x[0] -= beyond / away * dx;
+  x[2] -= beyond / away * dz;
+}
+
+/// Squares about the axis become circles: a point keeps its place along the side of its square.
+Vector Region::mapped_to_cylinder(const Vector& x) const {
+  const auto [dx, dz] = from_axis(x);
+  if (dx == 0 && dz == 0) return x;
+  const bool along_x = std::abs(dx) > std::abs(dz);
+  const double circle = along_x ? dx : dz;
+  const double angle =
+      along_x ? std::numbers::pi / 4 * (dz / dx) : std::numbers::pi / 2 - std::numbers::pi / 4 * (dx / dz);
+  return {x[0] - dx + circle * std::cos(angle), x[1], x[2] - dz + circle * std::sin(angle)};
+}
 
 HardSpheres::HardSpheres(const std::vector<Particle>& all, const std::vector<Region>& region, const Box& box,
                          const Materials& materials)

@@ -2,6 +2,7 @@
 // may touch.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -15,6 +16,23 @@ namespace polybed::dem {
 /// Where a particle may be as a whole, m; no limit along joined directions that it spans.
 struct Region {
   Vector low, high;
+  bool round = false;  ///< within the upright cylinder that fits between these corners; it is as wide as deep
+
+  [[nodiscard]] double volume() const;
+  /// Whether a place between the corners lies within the cylinder.
+  [[nodiscard]] bool in_cylinder(const Vector& x) const { return distance_from_axis(x) <= radius(); }
+  /// Moves a place outside the cylinder to its side.
+  void move_into_cylinder(Vector& x) const;
+  /// Where a place between the corners goes as they are mapped to the cylinder, equal volumes to equal ones: the
+  /// concentric map of Shirley and Chiu (J. Graphics Tools 2 (3), 1997, 45).
+  [[nodiscard]] Vector mapped_to_cylinder(const Vector& x) const;
+
+ private:
+  [[nodiscard]] double radius() const { return 0.5 * (high[0] - low[0]); }
+  [[nodiscard]] std::array<double, 2> from_axis(const Vector& x) const {
+    return {x[0] - 0.5 * (low[0] + high[0]), x[2] - 0.5 * (low[2] + high[2])};
+  }
+  [[nodiscard]] double distance_from_axis(const Vector& x) const;
 };
 
 /// Places particles in a region, whatever their overlaps. Some lie anywhere; the others, in random order, each in a

@@ -102,7 +102,8 @@ std::vector<Group> groups_of(const core::Scene& scene, const Materials& material
   for (std::size_t n = 0; n < parts.size(); ++n) {
     const core::BedPart& part = parts[n];
     groups[n].region = {{part.from[0] * box.size[0], floor + extents[n].low, part.from[1] * box.size[2]},
-                        {part.to[0] * box.size[0], floor + extents[n].high, part.to[1] * box.size[2]}};
+                        {part.to[0] * box.size[0], floor + extents[n].high, part.to[1] * box.size[2]},
+                        box.round};
   }
   return groups;
 }
@@ -155,8 +156,7 @@ double place_without_overlap(std::vector<Particle>& particles, const std::vector
   }
   for (std::size_t n = 0; n < groups.size(); ++n) {
     if (together[n].empty()) continue;
-    const auto& [low, high] = groups[n].region;
-    room += (high[0] - low[0]) * (high[1] - low[1]) * (high[2] - low[2]);
+    room += groups[n].region.volume();
     spread(together[n], groups[n].region, seed);
   }
   HardSpheres spheres(particles, region, box, materials);
@@ -168,7 +168,7 @@ double place_without_overlap(std::vector<Particle>& particles, const std::vector
 
 /// Why the particles of a group have no room in it; empty if they have.
 std::string no_room_in(const Group& group, const Materials& materials, const Box& box) {
-  const auto& [low, high] = group.region;
+  const Vector &low = group.region.low, &high = group.region.high;
   for (std::size_t j = 0; j < group.numbers.size(); ++j) {
     const double diameter = 2 * materials.species()[j].radius;
     if (group.numbers[j] == 0) continue;

@@ -28,6 +28,25 @@ double most_contacts(double radius, double partner) {
 /// Walls that a particle touches at once; of those inside, two beside each other.
 double most_walls(const core::Scene& scene) { return scene.walls.empty() ? 3 : 5; }
 
+/// Half the height of the side of a round box over the box's: particles fly beyond an open top.
+constexpr double beyond_the_top = 100;
+
+/// The walls inside, and the side of a round box. Those of one shape join: a scene has either flat ones or round ones.
+void add_plates(const core::Scene& scene, Box& box) {
+  const auto end_of = [](const std::vector<double>& end) { return InPlane{0.5 * end[0], end[1]}; };
+  bool round = false;
+  for (const core::InnerWall& wall : scene.walls) {
+    round = round || wall.is_round();
+    if (wall.is_round())
+      box.add_cone(end_of(wall.from), end_of(wall.to));
+    else
+      box.add_plate({wall.from[0], wall.from[1], wall.to[0], wall.to[1]});
+  }
+  const double radius = 0.5 * box.size[0], far = beyond_the_top * box.size[1];
+  if (box.round) box.add_cone({radius, -far}, {radius, far});
+  if (round) box.make_bottom_a_plate();
+}
+
 /// Speed that a fluid lets particles have: twice the terminal velocity of the fastest, or what they start with, and the
 /// inflow; or that of a channel. \param first  speed at the start, m/s
 double speed_in_fluid(const core::Scene& scene, double first) {
@@ -85,18 +104,19 @@ Box box_of(const core::Scene& scene) {
   box.periodic = {column.sides == core::Boundary::periodic, column.ends == core::Boundary::periodic,
                   column.dimensions == 2 || column.sides == core::Boundary::periodic};
   box.shear_rate = scene.column.shear_rate;
+  box.round = column.is_round();
   if (scene.dem.opening)
     box.opening = Opening{0.5 * box.size[0], 0.5 * box.size[2], 0.5 * *scene.dem.opening, column.dimensions == 3};
   box.open_top = is_open_at_top(scene);
   for (int axis = 0; axis < 3; ++axis) {
-    if (box.periodic[std::size_t(axis)]) continue;
+    if (box.periodic[std::size_t(axis)] || (box.round && axis != 1)) continue;
     box.walls.push_back({axis, 0, 0});
     // The top of a column without a fluid lets particles fly beyond it, and gravity bring them back, unless it is
     // closed; the screen of one with a fluid stops them.
     if (axis != 1 || column.closed || (scene.fluid.present() && !box.open_top))
       box.walls.push_back({axis, 1, box.size[std::size_t(axis)]});
   }
-  for (const core::InnerWall& wall : scene.walls) box.add_plate({wall.from[0], wall.from[1], wall.to[0], wall.to[1]});
+  add_plates(scene, box);
   return box;
 }
 
@@ -147,7 +167,7 @@ FixedPoint force_unit(const core::Scene& scene, const Materials& materials, cons
   double most = 0;
   const auto& species = materials.species();
   for (int i = 0; i < int(species.size()); ++i) {
-    double sum = most_walls(scene) * force(materials.wall_kind(i));
+    double sum = most_walls(scene) * force(materials.stiffest_wall_kind(i));
     for (int j = 0; j < int(species.size()); ++j)
       sum +=
           most_contacts(species[std::size_t(i)].radius, species[std::size_t(j)].radius) * force(materials.kind(i, j));

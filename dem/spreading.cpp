@@ -56,13 +56,11 @@ class Division {
   std::vector<double> sum_{0};  ///< m3, of the particles before
 };
 
-}  // namespace
-
-void spread(std::vector<Particle*>& particles, const Region& region, std::uint64_t seed) {
-  double volume = 0, room = 1;
+/// Between the corners of a region.
+void spread_between_corners(const std::vector<Particle*>& particles, const Region& region, std::uint64_t seed) {
+  double volume = 0;
   for (const Particle* p : particles) volume += volume_of(*p);
-  for (std::size_t k = 0; k < 3; ++k) room *= region.high[k] - region.low[k];
-  const double share = number_variance(volume / room);
+  const double share = number_variance(volume / region.volume());
   std::vector<std::pair<double, Particle*>> ranked;
   for (Particle* p : particles) {
     const auto id = std::uint64_t(p->id);
@@ -77,6 +75,14 @@ void spread(std::vector<Particle*>& particles, const Region& region, std::uint64
   std::vector<Particle*> in_order;
   for (const auto& [r, p] : ranked) in_order.push_back(p);
   Division(in_order, seed).place(0, in_order.size(), region);
+}
+
+}  // namespace
+
+void spread(std::vector<Particle*>& particles, const Region& region, std::uint64_t seed) {
+  spread_between_corners(particles, region, seed);
+  if (!region.round) return;
+  for (Particle* p : particles) p->place.x = region.mapped_to_cylinder(p->place.x);
 }
 
 }  // namespace polybed::dem

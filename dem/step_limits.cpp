@@ -66,7 +66,7 @@ StepLimits step_limits(const core::Scene& scene, const Materials& materials, con
   for (std::size_t a = 0; a < species.size(); ++a) {
     for (std::size_t b = a; b <= species.size(); ++b) {
       const bool wall = b == species.size();
-      const int kind = wall ? materials.wall_kind(int(a)) : materials.kind(int(a), int(b));
+      const int kind = wall ? materials.stiffest_wall_kind(int(a)) : materials.kind(int(a), int(b));
       add_pair(scene, materials, laws, kind, fmt::format("{} and {}", species[a].name, wall ? "wall" : species[b].name),
                speed, limits.synchronised, limits);
     }

@@ -48,9 +48,10 @@ std::string trouble_of_pair(const Model& model, const core::Scene& scene) {
   const Particles& particles = model.particles();
   const Place& at = particles.place[std::size_t(pair.first)];
   const int plate = t.wall ? model.box().walls[std::size_t(pair.second)].plate : -1;
-  const std::string other = plate >= 0 ? fmt::format("[[wall]] number {}", plate + 1)
-                            : t.wall   ? fmt::format("wall {}", pair.second)
-                                       : fmt::format("particle {}", particles.id[std::size_t(pair.second)]);
+  const bool inside = plate >= 0 && std::size_t(plate) < scene.walls.size();  // those of the case come first
+  const std::string other = inside   ? fmt::format("[[wall]] number {}", plate + 1)
+                            : t.wall ? fmt::format("wall {}", pair.second)
+                                     : fmt::format("particle {}", particles.id[std::size_t(pair.second)]);
   return fmt::format(
       "t = {:.6g} s: particle {} and {} overlap by {:.3g} m more than dem.max_overlap allows, near ({:.6g}, {:.6g}, "
       "{:.6g}) m; {}",

@@ -13,7 +13,8 @@ namespace polybed::core {
 
 // The parts of the list.
 [[nodiscard]] std::vector<Rule> column_rules();   ///< its axes, gravity, ends and sides; the fluid; times
-[[nodiscard]] std::vector<Rule> opening_rules();  ///< jets, feeds, an opening of the bottom, walls inside
+[[nodiscard]] std::vector<Rule> opening_rules();  ///< jets, feeds, an opening of the bottom
+[[nodiscard]] std::vector<Rule> wall_rules();     ///< a round column, and walls inside
 [[nodiscard]] std::vector<Rule> bed_rules();      ///< species, pairs of them, how much there is and where
 [[nodiscard]] std::vector<Rule> layer_rules();    ///< [[layer]]: what it contains and where it lies
 [[nodiscard]] std::vector<Rule> idle_rules();     ///< keys that cannot act beside others

@@ -18,6 +18,10 @@ constexpr std::array<std::string_view, 2> names(Boundary) { return {"wall", "per
 enum class ColumnShape { box, cylinder, axisymmetric };
 constexpr std::array<std::string_view, 3> names(ColumnShape) { return {"box", "cylinder", "axisymmetric"}; }
 
+/// Of a wall inside the column.
+enum class WallShape { flat, cylinder, cone };
+constexpr std::array<std::string_view, 3> names(WallShape) { return {"flat", "cylinder", "cone"}; }
+
 /// Whether solids leave at the top.
 enum class Outlet { screen, open };
 constexpr std::array<std::string_view, 2> names(Outlet) { return {"screen", "open"}; }

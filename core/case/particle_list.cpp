@@ -153,6 +153,11 @@ class ListReader {
       if (!(position[d] >= 0 && position[d] <= scene_.column.size[d]))
         add(column, fmt::format("{} = {:g} m: the centre lies outside the column, 0 to {:g} m", axis[d], position[d],
                                 scene_.column.size[d]));
+    const double radius = 0.5 * scene_.column.size[0], away = std::hypot(position[0] - radius, position[2] - radius);
+    if (scene_.column.is_round() && away > radius)
+      add(column, fmt::format("x = {:g} m, z = {:g} m: the centre lies outside the round column, {:g} m from its axis, "
+                              "whose radius is {:g} m",
+                              position[0], position[2], away, radius));
   }
 
   void add(int column, std::string message) {

@@ -189,7 +189,7 @@ std::vector<Rule> column_rules() {
 std::span<const Rule> case_rules() {
   static const std::vector<Rule> all = [] {
     std::vector<Rule> rules;
-    for (const auto& part : {column_rules(), opening_rules(), bed_rules(), layer_rules(), idle_rules()})
+    for (const auto& part : {column_rules(), opening_rules(), wall_rules(), bed_rules(), layer_rules(), idle_rules()})
       rules.insert(rules.end(), part.begin(), part.end());
     return rules;
   }();

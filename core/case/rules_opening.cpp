@@ -1,5 +1,4 @@
-// What parts of the cross-section require: jets, feeds, layers, and an opening that particles fall through; and what
-// walls inside the column do.
+// What parts of the cross-section require: jets, feeds, layers, and an opening that particles fall through.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -184,69 +183,11 @@ std::vector<Rule> bottom_rules() {
       })};
 }
 
-Broken wall_ends_miscounted(const Scene& scene) {
-  Broken broken;
-  for (std::size_t n = 0; n < scene.walls.size(); ++n) {
-    const InnerWall& wall = scene.walls[n];
-    if (wall.from.size() != 2 || wall.to.size() != 2)
-      broken.add({std::to_string(wall.from.size()), std::to_string(wall.to.size())}, n);
-  }
-  return broken;
-}
-
-Broken walls_outside(const Scene& scene) {
-  Broken broken;
-  for (std::size_t n = 0; n < scene.walls.size(); ++n) {
-    const InnerWall& wall = scene.walls[n];
-    const auto beyond = [&](std::size_t d) {
-      return std::max(wall.from[d], wall.to[d]) > scene.column.size[d] * (1 + 1e-12);
-    };
-    if (beyond(0) || beyond(1))
-      broken.add({std::to_string(n + 1), fmt::format("{:.4g}", scene.column.size[0]),
-                  fmt::format("{:.4g}", scene.column.size[1])},
-                 n);
-  }
-  return broken;
-}
-
-Broken walls_without_length(const Scene& scene) {
-  Broken broken;
-  for (std::size_t n = 0; n < scene.walls.size(); ++n)
-    if (scene.walls[n].from == scene.walls[n].to) broken.add({std::to_string(n + 1)}, n);
-  return broken;
-}
-
-/// Of walls inside the column: broken where a scene has one and `wrong` holds.
-Rule wall_rule(const std::string& key, const std::string& message, bool (*wrong)(const Scene&)) {
-  return {{"wall.from", key}, "[[wall]]: " + message, [wrong](const Scene& scene) {
-            return broken_if(!scene.walls.empty() && wrong(scene));
-          }};
-}
-
-std::vector<Rule> wall_rules() {
-  return {{{"wall.from", "wall.to"},
-           "wall.from and wall.to have {} and {} numbers: 2 here, x and y",
-           wall_ends_miscounted,
-           true},
-          {{"wall.from", "wall.to", "column.size"},
-           "[[wall]] number {} does not lie in the column, {} m wide and {} m high",
-           walls_outside},
-          {{"wall.from", "wall.to"}, "[[wall]] number {} has no length: its ends are one point", walls_without_length},
-          wall_rule("fluid.name", "a fluid would pass through it; set fluid.name = \"none\"",
-                    [](const Scene& scene) { return scene.fluid.present(); }),
-          wall_rule("column.sides", "column.sides = \"periodic\" would end it at the side; use \"wall\"",
-                    [](const Scene& scene) { return scene.column.sides == Boundary::periodic; }),
-          wall_rule("column.ends", "column.ends = \"periodic\" would end it at the bottom; use \"wall\"",
-                    [](const Scene& scene) { return scene.column.ends == Boundary::periodic; }),
-          wall_rule("bed.start", "bed.start = \"random\" would place particles on both sides of it; use \"mixed\"",
-                    [](const Scene& scene) { return scene.bed.start.kind == StartKind::random; })};
-}
-
 }  // namespace
 
 std::vector<Rule> opening_rules() {
   std::vector<Rule> rules;
-  for (const auto& part : {jet_rules(), layer_corner_rules(), feed_rules(), bottom_rules(), wall_rules()})
+  for (const auto& part : {jet_rules(), layer_corner_rules(), feed_rules(), bottom_rules()})
     rules.insert(rules.end(), part.begin(), part.end());
   return rules;
 }

@@ -131,9 +131,13 @@ struct Jet {
   std::vector<std::pair<double, double>> superficial_velocity;  ///< as of the inlet, over the jet's own area
 };
 
-/// A flat wall inside the column, across its whole depth, that particles meet from either side.
+/// A wall inside the column that particles meet from either side: flat across the whole depth, or round about the
+/// upright axis of the column.
 struct InnerWall {
-  std::vector<double> from, to;  ///< its ends, x and y, m
+  std::vector<double> from, to;  ///< its ends, m: x and y; of a round one diameter and height
+  WallShape shape = WallShape::flat;
+
+  [[nodiscard]] bool is_round() const { return shape != WallShape::flat; }
 };
 
 /// Solids of one species that are fed through the bottom or the top, everywhere or in a part of it.

@@ -205,9 +205,12 @@ Table wall_table() {
   return table(
       "wall", &Scene::walls,
       {
+          key(&InnerWall::shape, "shape",
+              help("of a wall inside the column for particles; needs fluid.name = \"none\". flat: across the whole "
+                   "depth; cone: about the upright axis of the column, cut off at both ends; cylinder: a cone of one "
+                   "diameter. What is placed at the start lies above all walls")),
           key(&InnerWall::from, "from", dimension::length, range(0, 1e3), Mark::required,
-              help("one end, [x, y] (width, height), of a flat wall inside the column for particles, across the whole "
-                   "depth; needs fluid.name = \"none\". What is placed at the start lies above all of them")),
+              help("one end: [x, y] (width, height) of a flat wall, [diameter, height] of a cone or cylinder")),
           key(&InnerWall::to, "to", dimension::length, range(0, 1e3), Mark::required, help("the other end")),
       });
 }

@@ -120,7 +120,7 @@ ContactLoader::ContactLoader(const Box& box, const Materials& materials, double 
   for (std::int32_t a = 0; a < std::int32_t(species.size()); ++a) {
     const double ra = species[std::size_t(a)].radius;
     // A wall is no larger than what it touches where radii are compared.
-    kinds_[std::size_t(materials.wall_kind(a))] = {ra, ra, 0};
+    materials.each_wall_kind(a, [&](std::int32_t kind) { kinds_[std::size_t(kind)] = {ra, ra, 0}; });
     for (std::int32_t b = 0; b < std::int32_t(species.size()); ++b) {
       const double rb = species[std::size_t(b)].radius, near = ra + rb + reach;
       kinds_[std::size_t(materials.kind(a, b))] = {ra, rb, near * near};

@@ -32,8 +32,17 @@ class Materials {
   [[nodiscard]] const std::vector<PairMaterial>& kinds() const { return kinds_; }
   /// Place in kinds() of two species; the same either way round.
   [[nodiscard]] std::int32_t kind(std::int32_t a, std::int32_t b) const { return a * stride_ + b; }
-  /// Likewise of a species and the walls.
-  [[nodiscard]] std::int32_t wall_kind(std::int32_t a) const { return a * stride_ + stride_ - 1; }
+  /// Likewise of a species and the walls. \param curve  of a round one, as Plate::curve_at() has it
+  [[nodiscard]] std::int32_t wall_kind(std::int32_t a, std::int32_t curve = 0) const {
+    return a * stride_ + std::int32_t(species_.size()) + curve;
+  }
+  /// Calls act(kind) for each kind of a species and the walls.
+  template <class Act>
+  void each_wall_kind(std::int32_t a, Act&& act) const {
+    for (std::int32_t kind = wall_kind(a); kind < (a + 1) * stride_; ++kind) act(kind);
+  }
+  /// That of the greatest reduced radius.
+  [[nodiscard]] std::int32_t stiffest_wall_kind(std::int32_t a) const;
   /// The same with one restitution for all pairs.
   [[nodiscard]] Materials with_restitution(double restitution) const {
     Materials changed = *this;
@@ -46,7 +55,7 @@ class Materials {
  private:
   std::int32_t stride_;
   std::vector<Species> species_;
-  std::vector<PairMaterial> kinds_;  ///< [species][species, then wall]
+  std::vector<PairMaterial> kinds_;  ///< [species][species, then a flat wall, then the curvatures of round walls]
 };
 
 }  // namespace polybed::dem

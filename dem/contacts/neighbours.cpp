@@ -262,12 +262,16 @@ void NeighbourSearch::find_walls(const Particles& particles, std::vector<Contact
       const Vector& x = particles.place[i].x;
       double away = x[std::size_t(wall.axis)] - wall.place;
       if (wall.side != 0) away = -away;
+      std::int32_t curve = 0;
       if (wall.plate >= 0) {
-        const Vector d = box_.plates[std::size_t(wall.plate)].to(x);
+        const Plate& plate = box_.plates[std::size_t(wall.plate)];
+        const InPlane d = plate.to(plate.in_plane(x));
         away = std::sqrt(d[0] * d[0] + d[1] * d[1]);
+        curve = plate.curve_at(x);
       }
       if (away < particles.place[i].radius + reach_)
-        pairs.push_back({std::int32_t(i), std::int32_t(w), Images::here, materials_.wall_kind(particles.species[i])});
+        pairs.push_back(
+            {std::int32_t(i), std::int32_t(w), Images::here, materials_.wall_kind(particles.species[i], curve)});
     }
 }
 

@@ -62,7 +62,8 @@ class WillettBridge final : public CohesionLaw {
     };
     for (std::int32_t a = 0; a < std::int32_t(species.size()); ++a) {
       const Species& s = species[std::size_t(a)];
-      set(materials.wall_kind(a), film(s, std::numeric_limits<double>::infinity()));
+      materials.each_wall_kind(a,
+                               [&](std::int32_t kind) { set(kind, film(s, std::numeric_limits<double>::infinity())); });
       for (std::int32_t b = 0; b < std::int32_t(species.size()); ++b) {
         const Species& other = species[std::size_t(b)];
         set(materials.kind(a, b), film(s, other.radius) + film(other, s.radius));

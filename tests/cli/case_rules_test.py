@@ -5,6 +5,7 @@ import re
 import program
 from feed_rules import FEEDS, feeds
 from layer_rules import COUNTED, LAYERS
+from wall_rules import WALLS
 from program import DONE, WRONG_CASE, Scratch, run, strict_json
 
 BED = """[column]
@@ -83,14 +84,7 @@ KEYS = {
     "jet.from and jet.to have {} and {} numbers: {} here": [jets(([0.01, 0], [0.02]))],
     "a jet from {} to {} m does not lie on the bottom, 0 to {} m": [jets(([0.01], [0.07]))],
     "two jets overlap: [[jet]] number {} and {}": [jets(([0.01], [0.03]), ([0.02], [0.04]))],
-    "wall.from and wall.to have {} and {} numbers: 2 here, x and y": ["wall=[{from=[0.01], to=[0.02, 0.01]}]"],
-    "[[wall]] number {} does not lie in the column, {} m wide and {} m high": ["wall=[{from=[0, 0.1], to=[0.5, 0.01]}]"],
-    "[[wall]] number {} has no length: its ends are one point": ["wall=[{from=[0.01, 0.01], to=[0.01, 0.01]}]"],
-    **{f"[[wall]]: {told}": ["wall=[{from=[0, 0.05], to=[0.02, 0.01]}]", *words] for told, words in (
-        ('a fluid would pass through it; set fluid.name = "none"', []),
-        ('column.sides = "periodic" would end it at the side; use "wall"', ["column.sides=periodic"]),
-        ('column.ends = "periodic" would end it at the bottom; use "wall"', ["column.ends=periodic"]),
-        ('bed.start = "random" would place particles on both sides of it; use "mixed"', ["bed.start=random"]))},
+    **WALLS,
     'dem.opening = {} m: a fluid enters there, and particles leave through the top alone (column.outlet = "open"); set fluid.name = "none"': [
         "dem.opening=0.01"],
     'dem.opening = {} m: column.ends = "periodic" leaves no bottom to open': ["dem.opening=0.01", JOINED],

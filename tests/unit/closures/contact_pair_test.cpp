@@ -23,6 +23,13 @@ TEST(ContactPair, ReducedRadiusAndMass) {
   EXPECT_DOUBLE_EQ(reduced_mass(infinite, .2), .2);
 }
 
+TEST(ContactPair, ReducedRadiusAtARoundWall) {
+  // sqrt(1 - 0.36) = 0.8 inside a cylinder of 25/9 radii, sqrt(1 + 0.44) = 1.2 outside one of 25/11.
+  EXPECT_NEAR(reduced_radius_at_wall(2e-3, 0.18e3), 2.5e-3, 2.5e-3 * round_off);
+  EXPECT_NEAR(reduced_radius_at_wall(2e-3, -0.22e3), 2e-3 / 1.2, 2e-3 * round_off);
+  EXPECT_DOUBLE_EQ(reduced_radius_at_wall(2e-3, 0), 2e-3);
+}
+
 TEST(ContactPair, MassOnAContact) {
   // 8 kg of twice the radius on four others; the same that is the smaller one, all on one; and either way round.
   EXPECT_DOUBLE_EQ(mass_on_a_contact(8, 2, 1, 1), 2);

@@ -65,6 +65,90 @@ TEST(Box, PlatesApartKeepTheirEdges) {
   EXPECT_EQ(pushing(box, {1.0005, 0.01, 0}), 2);
 }
 
+/// 20 m wide and deep: its axis is at (10, 10).
+Box tall_box() {
+  Box box;
+  box.size = {20, 30, 20};
+  box.walls.push_back({1, 0, 0});
+  return box;
+}
+
+/// A centre at a distance from the axis, in the direction (0.6, 0.8), and a height.
+Vector beside_axis(double distance, double height) { return {10 + 0.6 * distance, height, 10 + 0.8 * distance}; }
+
+void expect_near(const Vector& obtained, const Vector& expected) {
+  for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(obtained[k], expected[k], 1e-13) << "axis " << k;
+}
+
+// A cone of diameters 6 and 12 m, 4 m high: its profile rises along (3, 4)/5, its normal inwards is (-4, 3)/5.
+TEST(Box, AConeIsNearestAlongItsNormal) {
+  Box box = tall_box();
+  box.add_cone({3, 0}, {6, 4});
+  const Plate& cone = box.plates[0];
+  // 1 m inwards and outwards of its middle, and beyond both edges
+  expect_near(cone.to(beside_axis(4.5 - 0.8, 2 + 0.6)), {-0.8 * 0.6, 0.6, -0.8 * 0.8});
+  expect_near(cone.to(beside_axis(4.5 + 0.8, 2 - 0.6)), {0.8 * 0.6, -0.6, 0.8 * 0.8});
+  expect_near(cone.to(beside_axis(2, -1)), {-0.6, -1, -0.8});
+  expect_near(cone.to(beside_axis(7, 6)), {0.6, 2, 0.8});
+  EXPECT_DOUBLE_EQ(std::hypot(cone.to({10, 0, 10})[0], cone.to({10, 0, 10})[1]), 3);  // on the axis: some way aside
+}
+
+// 1/R = cos(a)/rho of the point that is nearest, cos(a) = 4/5, above 0 from inside. Half a step in curvature is
+// 0.8 (1/3 - 1/6)/32.
+TEST(Box, AConeCurvesMoreWhereItIsNarrow) {
+  Box box = tall_box();
+  box.add_cone({3, 0}, {6, 4});
+  const double half_step = 0.8 * (1.0 / 3 - 1.0 / 6) / 32;
+  for (int n = 0; n <= 100; ++n) {
+    const double share = 0.01 * n, rho = 3 + 3 * share, y = 4 * share;
+    for (const double inwards : {0.5, -0.5}) {
+      const int curve = box.plates[0].curve_at(beside_axis(rho - 0.8 * inwards, y + 0.6 * inwards));
+      if (curve == 0) {  // rounding may find the edge
+        EXPECT_TRUE(n == 0 || n == 100);
+        continue;
+      }
+      const double expected = (inwards > 0 ? 0.8 : -0.8) / rho;
+      EXPECT_NEAR(box.curvatures.at(std::size_t(curve - 1)), expected, half_step * (1 + 1e-9)) << share;
+    }
+  }
+  EXPECT_EQ(box.plates[0].curve_at(beside_axis(2, -1)), 0) << "an edge";
+}
+
+TEST(Box, ACylinderHasOneCurvatureOnEitherSideAndARingNone) {
+  Box box = tall_box();
+  box.add_cone({5, 0}, {5, 10});
+  box.add_cone({5, 10}, {8, 10});
+  EXPECT_EQ(box.curvatures, (std::vector<double>{0.2, -0.2}));
+  EXPECT_EQ(box.plates[0].curve_at(beside_axis(4, 3)), 1);
+  EXPECT_EQ(box.plates[0].curve_at(beside_axis(6, 3)), 2);
+  EXPECT_EQ(box.plates[1].curve_at(beside_axis(6, 11)), 0);
+}
+
+TEST(Box, RoundWallsThatJoinPushOnce) {
+  Box box = tall_box();
+  box.opening = Opening{10, 10, 3, true};
+  box.add_cone({3, 0}, {6, 4});     // from the rim of the opening
+  box.add_cone({6, 12}, {6, 4});    // a cylinder above it
+  box.add_cone({10, 20}, {6, 12});  // and a cone to the side of the box
+  box.add_cone({10, -3000}, {10, 3000});
+  box.make_bottom_a_plate();
+  const auto touched = [&](const Vector& centre, double radius) {
+    int n = 0;
+    for (std::size_t p = 0; p < box.plates.size(); ++p) {
+      const Vector away = box.plates[p].to(centre);
+      if (box.pushes(int(p), centre) && std::hypot(away[0], away[1], away[2]) < radius) ++n;
+    }
+    return n;
+  };
+  EXPECT_EQ(touched(beside_axis(2.9, -0.1), 0.2), 1) << "below the rim, where cone and bottom end";
+  EXPECT_EQ(touched(beside_axis(3 - 0.08, 0.06 + 1e-3), 0.2), 1) << "above the rim, over the cone's face";
+  EXPECT_EQ(touched(beside_axis(6.1, 3.9), 0.2), 1) << "outside, where cone and cylinder continue each other";
+  EXPECT_EQ(touched(beside_axis(5.9, 12.05), 0.2), 1) << "inside, over an edge";
+  EXPECT_EQ(touched(beside_axis(9.9, 20.05), 0.2), 1) << "the side alone: the cone ends on it";
+  EXPECT_EQ(touched(beside_axis(9.8, 19.9), 0.25), 2) << "in the corner of cone and side";
+  EXPECT_EQ(touched(beside_axis(8, 0.1), 0.2), 1) << "the bottom";
+}
+
 TEST(Box, WhatIsNearestPushesWhereverPlatesMeet) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> place(-1, 1);

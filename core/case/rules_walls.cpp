@@ -1,0 +1,213 @@
+// What a round column and walls inside the column require.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/case/case_rules.hpp"
+#include "core/case/size_classes.hpp"
+
+namespace polybed::core {
+
+namespace {
+
+bool has_round_wall(const Scene& scene) {
+  return std::any_of(scene.walls.begin(), scene.walls.end(), [](const InnerWall& wall) { return wall.is_round(); });
+}
+
+/// A wall that a particle would touch on all sides at once has no nearest point, and Hertz' contact is no spot there:
+/// a round one is at least twice as wide as particles.
+bool too_narrow(double diameter, const Species& species) { return 2 * species.diameter > diameter * (1 + 1e-12); }
+
+Broken not_round(const Scene& scene) {
+  const std::vector<double>& size = scene.column.given_size;
+  if (!scene.column.is_round() || (size.size() != 2 && size.size() != 3)) return {};
+  return broken_if(size.size() == 2 || std::abs(size[0] - size[1]) > 1e-12 * size[0]);
+}
+
+Broken column_too_narrow(const Scene& scene) {
+  Broken broken;
+  if (!scene.column.is_round() || scene.column.given_size.empty()) return broken;
+  const double diameter = scene.column.given_size[0];
+  for (std::size_t j = 0; j < scene.species.size(); ++j)
+    if (too_narrow(diameter, scene.species[j]))
+      broken.add({fmt::format("{:.4g}", scene.species[j].diameter), fmt::format("{:.4g}", diameter)},
+                 entry_of(scene, scene.species, j));
+  return broken;
+}
+
+Broken layers_with_corners(const Scene& scene) {
+  Broken broken;
+  for (std::size_t n = 0; n < scene.layers.size(); ++n)
+    if (scene.column.is_round() && !scene.layers[n].from.empty()) broken.add({std::to_string(n + 1)}, n);
+  return broken;
+}
+
+/// Whether a corner, x and z, lies within a round column.
+bool in_circle(const Column& column, double x, double z) {
+  const double radius = 0.5 * column.size[0];
+  return std::hypot(x - radius, z - radius) <= radius * (1 + 1e-12);
+}
+
+Broken feeds_beyond_the_circle(const Scene& scene) {
+  Broken broken;
+  if (!scene.column.is_round()) return broken;
+  for (std::size_t n = 0; n < scene.feeds.size(); ++n) {
+    const std::vector<double>&from = scene.feeds[n].from, &to = scene.feeds[n].to;
+    if (from.size() != 2 || to.size() != 2) continue;
+    bool inside = true;
+    for (const double x : {from[0], to[0]})
+      for (const double z : {from[1], to[1]}) inside = inside && in_circle(scene.column, x, z);
+    if (!inside)
+      broken.add({scene.feeds[n].species, fmt::format("{:.4g}", scene.column.size[0])},
+                 entry_of(scene, scene.feeds, n));
+  }
+  return broken;
+}
+
+std::vector<Rule> round_column_rules() {
+  return {{{"column.size", "column.shape"},
+           "column.shape = \"cylinder\" takes column.size = [diameter, diameter, height]",
+           not_round,
+           true},
+          {{"species.diameter", "column.size", "column.shape"},
+           "species.diameter: {} m is more than half the diameter of the round column, {} m",
+           column_too_narrow,
+           true},
+          {{"column.shape", "fluid.name"},
+           "column.shape = \"cylinder\": the fluid knows box-shaped columns only; set fluid.name = \"none\", or "
+           "column.shape = \"box\"",
+           [](const Scene& scene) { return broken_if(scene.column.is_round() && scene.fluid.present()); }},
+          {{"column.sides", "column.shape"},
+           "column.sides = \"periodic\" and column.shape = \"cylinder\" contradict each other: use column.sides = "
+           "\"wall\"",
+           [](const Scene& scene) {
+             return broken_if(scene.column.is_round() && scene.column.sides == Boundary::periodic);
+           }},
+          {{"layer.from", "column.shape"},
+           "[[layer]] number {} has corners, a round column has none: leave layer.from and layer.to out",
+           layers_with_corners},
+          {{"feed.from", "feed.to", "feed.species", "column.size", "column.shape"},
+           "[[feed]] of {} reaches beyond the round column, {} m in diameter: move feed.from and feed.to inwards, or "
+           "leave them out",
+           feeds_beyond_the_circle}};
+}
+
+Broken wall_ends_miscounted(const Scene& scene) {
+  Broken broken;
+  for (std::size_t n = 0; n < scene.walls.size(); ++n) {
+    const InnerWall& wall = scene.walls[n];
+    if (wall.from.size() != 2 || wall.to.size() != 2)
+      broken.add({std::to_string(wall.from.size()), std::to_string(wall.to.size())}, n);
+  }
+  return broken;
+}
+
+Broken walls_outside(const Scene& scene) {
+  Broken broken;
+  const auto& size = scene.column.size;
+  for (std::size_t n = 0; n < scene.walls.size(); ++n) {
+    const InnerWall& wall = scene.walls[n];
+    const double width = wall.is_round() ? std::min(size[0], size[2]) : size[0];
+    const auto beyond = [&](std::size_t d, double most) {
+      return std::max(wall.from[d], wall.to[d]) > most * (1 + 1e-12);
+    };
+    if (beyond(0, width) || beyond(1, size[1]))
+      broken.add({std::to_string(n + 1), fmt::format("{:.4g}", width), fmt::format("{:.4g}", size[1])}, n);
+  }
+  return broken;
+}
+
+Broken walls_without_length(const Scene& scene) {
+  Broken broken;
+  for (std::size_t n = 0; n < scene.walls.size(); ++n)
+    if (scene.walls[n].from == scene.walls[n].to) broken.add({std::to_string(n + 1)}, n);
+  return broken;
+}
+
+Broken cylinders_of_two_diameters(const Scene& scene) {
+  Broken broken;
+  for (std::size_t n = 0; n < scene.walls.size(); ++n) {
+    const InnerWall& wall = scene.walls[n];
+    if (wall.shape == WallShape::cylinder && !wall.from.empty() && !wall.to.empty() && wall.from[0] != wall.to[0])
+      broken.add({std::to_string(n + 1), fmt::format("{:.4g}", wall.from[0]), fmt::format("{:.4g}", wall.to[0])}, n);
+  }
+  return broken;
+}
+
+Broken walls_too_narrow(const Scene& scene) {
+  Broken broken;
+  for (std::size_t n = 0; n < scene.walls.size(); ++n) {
+    const InnerWall& wall = scene.walls[n];
+    if (!wall.is_round() || wall.from.empty() || wall.to.empty()) continue;
+    const double narrowest = std::min(wall.from[0], wall.to[0]);
+    const auto large = std::find_if(scene.species.begin(), scene.species.end(),
+                                    [&](const Species& species) { return too_narrow(narrowest, species); });
+    if (large != scene.species.end())
+      broken.add({std::to_string(n + 1), fmt::format("{:.4g}", narrowest), fmt::format("{:.4g}", 2 * large->diameter)},
+                 n);
+  }
+  return broken;
+}
+
+/// Flat walls where the column or another wall is round: where they meet both would push.
+Broken flat_beside_round(const Scene& scene) {
+  Broken broken;
+  const bool round = scene.column.is_round() || has_round_wall(scene);
+  for (std::size_t n = 0; n < scene.walls.size(); ++n)
+    if (round && !scene.walls[n].is_round()) broken.add({std::to_string(n + 1)}, n);
+  return broken;
+}
+
+/// Of walls inside the column: broken where a scene has one and `wrong` holds.
+Rule wall_rule(const std::string& key, const std::string& message, bool (*wrong)(const Scene&)) {
+  return {{"wall.from", key}, "[[wall]]: " + message, [wrong](const Scene& scene) {
+            return broken_if(!scene.walls.empty() && wrong(scene));
+          }};
+}
+
+std::vector<Rule> rules_of_each_wall() {
+  return {{{"wall.from", "wall.to"},
+           "wall.from and wall.to have {} and {} numbers: 2 here, x and y, or diameter and height of a round one",
+           wall_ends_miscounted,
+           true},
+          {{"wall.from", "wall.to", "wall.shape", "species.diameter"},
+           "[[wall]] number {} is {} m in diameter at its narrow end, less than two particles, {} m: widen it",
+           walls_too_narrow,
+           true},
+          {{"wall.shape", "wall.from", "wall.to"},
+           "[[wall]] number {} has diameters of {} and {} m: a cylinder has one; use shape = \"cone\"",
+           cylinders_of_two_diameters},
+          {{"wall.from", "wall.to", "wall.shape", "column.size"},
+           "[[wall]] number {} does not lie in the column, {} m wide and {} m high",
+           walls_outside},
+          {{"wall.from", "wall.to"}, "[[wall]] number {} has no length: its ends are one point", walls_without_length},
+          {{"wall.shape", "column.shape"},
+           "[[wall]] number {} is flat beside round walls: use shape = \"cone\" or \"cylinder\" for all of them, or "
+           "column.shape = \"box\" and flat ones",
+           flat_beside_round}};
+}
+
+std::vector<Rule> rules_of_any_wall() {
+  return {wall_rule("fluid.name", "a fluid would pass through it; set fluid.name = \"none\"",
+                    [](const Scene& scene) { return scene.fluid.present(); }),
+          wall_rule("column.sides", "column.sides = \"periodic\" would end it at the side; use \"wall\"",
+                    [](const Scene& scene) { return scene.column.sides == Boundary::periodic; }),
+          wall_rule("column.ends", "column.ends = \"periodic\" would end it at the bottom; use \"wall\"",
+                    [](const Scene& scene) { return scene.column.ends == Boundary::periodic; }),
+          wall_rule("column.size", "a cone or cylinder needs three dimensions; give column.size three numbers",
+                    [](const Scene& scene) { return has_round_wall(scene) && scene.column.dimensions != 3; }),
+          wall_rule("bed.start", "bed.start = \"random\" would place particles on both sides of it; use \"mixed\"",
+                    [](const Scene& scene) { return scene.bed.start.kind == StartKind::random; })};
+}
+
+}  // namespace
+
+std::vector<Rule> wall_rules() {
+  std::vector<Rule> rules;
+  for (const auto& part : {round_column_rules(), rules_of_each_wall(), rules_of_any_wall()})
+    rules.insert(rules.end(), part.begin(), part.end());
+  return rules;
+}
+
+}  // namespace polybed::core

@@ -1,0 +1,37 @@
+"""For each rule of a round column and of walls inside what breaks it, in words of --set as in case_rules_test.py."""
+from feed_rules import feeds
+from layer_rules import COUNTED, FINE, layers
+
+ROUND = ["column.shape=cylinder", "column.size=[0.06,0.06,0.2]", "column.cells=[6,6,20]"]
+
+
+def wall(start, end, shape="flat"):
+    return f'wall=[{{from={start}, to={end}, shape="{shape}"}}]'
+
+
+WALLS = {
+    'column.shape = "cylinder" takes column.size = [diameter, diameter, height]': ["column.shape=cylinder"],
+    "species.diameter: {} m is more than half the diameter of the round column, {} m": [
+        "column.shape=cylinder", "column.size=[0.0015,0.0015,0.2]", "column.cells=[1,1,20]"],
+    'column.shape = "cylinder": the fluid knows box-shaped columns only; set fluid.name = "none", or column.shape = "box"': ROUND,
+    'column.sides = "periodic" and column.shape = "cylinder" contradict each other: use column.sides = "wall"': [
+        *ROUND, "column.sides=periodic"],
+    "[[layer]] number {} has corners, a round column has none: leave layer.from and layer.to out": [
+        *ROUND, *COUNTED, layers(FINE + ", from=[0.02, 0.02], to=[0.04, 0.04]")],
+    "[[feed]] of {} reaches beyond the round column, {} m in diameter: move feed.from and feed.to inwards, or leave them out": [
+        *ROUND, feeds(", from=[0.0, 0.02], to=[0.04, 0.04]")],
+    "wall.from and wall.to have {} and {} numbers: 2 here, x and y, or diameter and height of a round one": [wall([0.01], [0.02, 0.01])],
+    "[[wall]] number {} is {} m in diameter at its narrow end, less than two particles, {} m: widen it": [
+        wall([0.0015, 0.1], [0.02, 0.12], "cone")],
+    '[[wall]] number {} has diameters of {} and {} m: a cylinder has one; use shape = "cone"': [wall([0.01, 0.1], [0.02, 0.12], "cylinder")],
+    "[[wall]] number {} does not lie in the column, {} m wide and {} m high": [wall([0, 0.1], [0.5, 0.01])],
+    "[[wall]] number {} has no length: its ends are one point": [wall([0.01, 0.01], [0.01, 0.01])],
+    '[[wall]] number {} is flat beside round walls: use shape = "cone" or "cylinder" for all of them, or column.shape = "box" and flat ones': [
+        *ROUND, wall([0, 0.05], [0.02, 0.01])],
+    **{f"[[wall]]: {told}": [wall([0, 0.05], [0.02, 0.01]), *words] for told, words in (
+        ('a fluid would pass through it; set fluid.name = "none"', []),
+        ('column.sides = "periodic" would end it at the side; use "wall"', ["column.sides=periodic"]),
+        ('column.ends = "periodic" would end it at the bottom; use "wall"', ["column.ends=periodic"]),
+        ('bed.start = "random" would place particles on both sides of it; use "mixed"', ["bed.start=random"]))},
+    "[[wall]]: a cone or cylinder needs three dimensions; give column.size three numbers": [wall([0.02, 0.01], [0.04, 0.05], "cone")],
+}
