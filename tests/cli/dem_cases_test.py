@@ -75,6 +75,13 @@ class FedHopper(Cases):
         self.assertGreater(rows["mass_glass_kg"][-1], 1.5 * rows["mass_glass_kg"][least])
 
 
+class RoundHopper(Cases):
+    def test_a_quarter_of_it_leaves(self):
+        record, _ = self.dem("round-hopper", *settings(bed__particles="[300]", run__until=0.3))
+        self.closes(record)
+        self.assertEqual((record["particles"], record["outflow"]["glass"]["particles"]), (0, 300))
+
+
 class ShearBox(Cases):
     def test_its_temperature_is_that_of_kinetic_theory(self):
         """Steady simple shear: production mu_s(T) gamma^2 meets dissipation(T), both after Lun, Savage, Jeffrey and Chepurniy,

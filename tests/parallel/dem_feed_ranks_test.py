@@ -35,6 +35,11 @@ youngs_modulus = "20 MPa"
 opening = "7 mm"
 """
 
+# the same in a round silo over a cone: fed through the whole circle
+ROUND = """wall = [{shape="cone", from=[0.007, 0], to=[0.016, 0.008]}]
+""" + FILLING.replace('size = ["16 mm", "24 mm"]\ncells = [4, 6]\ndepth = "4 mm"', 'shape = "cylinder"\nsize = ["16 mm", "16 mm", "24 mm"]\ncells = [4, 4, 6]'
+                      ).replace('from = ["1 mm"]\nto = ["15 mm"]\n', "")
+
 
 def above_slot():
     """A block of 10 by 8 by 3 particles above a slot, on its way down."""
@@ -57,6 +62,14 @@ def below_top():
             for i in range(10) for j in range(4) for k in range(2)]
 
 
+def above_cone():
+    """Two layers of particles that fill the circle above the cone, on their way down."""
+    spread = random.Random(5)
+    return [f"a,{(1.04 * i + 8) * 1e-3},{(1.1 * j + 9) * 1e-3},{(1.04 * k + 8) * 1e-3},"
+            f"{spread.uniform(-0.2, 0.2)},{spread.uniform(-1.1, -0.7)},{spread.uniform(-0.2, 0.2)},0,0,0"
+            for i in range(-7, 8) for j in range(2) for k in range(-7, 8) if 1.04 * (i * i + k * k) ** 0.5 < 7.4]
+
+
 class FeedRanks(Scratch):
     start_on, on, scene, check_same = (getattr(dem_ranks_test.DemRanks, name) for name in ("start_on", "on", "scene", "check_same"))
 
@@ -65,6 +78,13 @@ class FeedRanks(Scratch):
         passed = {json.dumps([record["feed"], record["outflow"], record["energy"]["carried_in_J"]]) for record in records.values()}
         self.assertEqual(len(passed), 1, passed)
         self.assertEqual(records[1]["feed"]["a"], {"particles": 128, "mass_kg": records[1]["feed"]["a"]["mass_kg"], "waiting": 0})
+
+    def test_particles_that_enter_a_round_hopper(self):
+        """They meet the side and the cone, whose contacts are in the histories."""
+        records = self.check_same(self.scene(ROUND, above_cone()), restart=(3, 2), numbers=(1, 2, 3))
+        passed = {json.dumps([record["feed"], record["outflow"], record["energy"]["carried_in_J"]]) for record in records.values()}
+        self.assertEqual(len(passed), 1, passed)
+        self.assertGreater(records[1]["feed"]["a"]["particles"], 100)
 
     def test_particles_that_enter_a_fluid(self):
         feed = '[[feed]]\nspecies = "b"\nat = "top"\nsuperficial_velocity = "40 mm/s"\nvelocity = "0.25 m/s"\n'
