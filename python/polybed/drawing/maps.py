@@ -37,12 +37,20 @@ def map_size(run, top, most):
     return width, min(most, width / aspect)
 
 
-def inner_walls(run):
-    """Ends of the walls inside the column, m."""
+def walls_of(run):
+    """The walls inside the column, (start, end, round): x and y of the ends of a flat one, diameter and height of a round one, m."""
     try:
-        return [(wall["from"], wall["to"]) for wall in case_of(run.record).get("wall", [])]
+        return [(wall["from"], wall["to"], wall.get("shape", "flat") != "flat") for wall in case_of(run.record).get("wall", [])]
     except DamagedError:
         return []
+
+
+def inner_walls(run):
+    """Ends of the lines in which the walls inside the column cut the plane of x and y in its middle, m."""
+    lines = []
+    for start, end, is_round in walls_of(run):
+        lines += [[(run.size[0] / 2 + side * point[0] / 2, point[1]) for point in (start, end)] for side in (-1, 1)] if is_round else [(start, end)]
+    return lines
 
 
 def frame(axes, run, title, top, first):

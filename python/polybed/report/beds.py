@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from polybed.drawing.maps import inner_walls
+from polybed.drawing.maps import walls_of
 from polybed.drawing.style import COLOURS, FEW_SOLIDS, in_plane, length_unit, vector_in_plane
 from polybed.drawing.units import fitting
 from polybed.record import case_of
@@ -11,7 +11,7 @@ from polybed.report.pack import EMPTY, changes, levels, packed, plain_numbers, t
 MOST_CELLS = 40_000  # of one map; a finer one is averaged
 MOST_LEVELS = 24_000_000  # of all maps together: bytes before they are compressed
 MOST_TEXT = 4_000_000  # characters of all maps, and of all particles
-ROUND = 48  # corners of a round opening
+ROUND = 48  # corners of a circle
 FEWEST_STEPS = 12  # of particles; fewer steps are not enough to see a motion: particles are left out instead
 
 
@@ -144,6 +144,12 @@ def packed_particles(run, chosen, share):
             "top": float(low[1] + (high[1] - low[1]) * highest) * length_unit(run)[0], "fastest": f"{most * factor:.3g} {unit}"}
 
 
+def circle_in(size, diameter, height):
+    """A closed line about the axis of a column."""
+    return [[(size[0] + diameter * np.cos(angle)) / 2, height, (size[2] + diameter * np.sin(angle)) / 2]
+            for angle in np.linspace(0, 2 * np.pi, ROUND, endpoint=False)]
+
+
 def opening_of(run):
     """The rim of the opening in the middle of the bottom, as a closed line: of a slot as deep as the column or, in a column of three
     dimensions, of a round hole; nothing without one."""
@@ -151,17 +157,24 @@ def opening_of(run):
     width = case.get("dem", {}).get("opening")
     if not width:
         return []
-    x, z, half = size[0] / 2, size[2] / 2, float(width) / 2
+    x, half = size[0] / 2, float(width) / 2
     if len(case["column"]["size"]) == 2:
         return [[[x - half, 0, 0], [x + half, 0, 0], [x + half, 0, size[2]], [x - half, 0, size[2]]]]
-    return [[[x + half * np.cos(angle), 0, z + half * np.sin(angle)] for angle in np.linspace(0, 2 * np.pi, ROUND, endpoint=False)]]
+    return [circle_in(size, float(width), 0)]
 
 
 def outlines_of(run):
-    """Closed lines round the walls inside the column and the opening, [[x, y, z], ...] each, m."""
-    depth = run.particles.size[2]
-    walls = [[[*start, 0], [*end, 0], [*end, depth], [*start, depth]] for start, end in inner_walls(run)]
-    return [np.array(line, dtype=float).reshape(-1, 3) for line in walls + opening_of(run)]
+    """Closed lines round the walls inside the column, the opening and the foot of a round column, [[x, y, z], ...] each, m."""
+    size, lines = run.particles.size, []
+    for start, end, is_round in walls_of(run):
+        if is_round:
+            ends = [circle_in(size, *point) for point in (start, end)]
+            lines += ends + [[low, high] for low, high in zip(*(line[:: ROUND // 8] for line in ends))]
+        else:
+            lines.append([[*start, 0], [*end, 0], [*end, size[2]], [*start, size[2]]])
+    if case_of(run.record)["column"].get("shape") == "cylinder":
+        lines.append(circle_in(size, size[0], 0))
+    return [np.array(line, dtype=float).reshape(-1, 3) for line in lines + opening_of(run)]
 
 
 def particles_of(run):
