@@ -1,4 +1,5 @@
-// A flat hopper: how fast spheres flow out through a round hole in the bottom, against its diameter. Minutes.
+// A flat hopper, square and round: how fast spheres flow out through a round hole in the bottom, against its diameter.
+// Minutes.
 #include <gtest/gtest.h>
 
 #include "dem/settling.hpp"
@@ -34,11 +35,10 @@ struct Flow {
   double scatter = 0;  ///< standard error of it, from eight parts of the time
 };
 
-Flow flow_through(double opening, const core::Checkpoint& settled) {
+/// \param counted  particles, a multiple of 8
+Flow flow_through(core::Scene scene, double opening, const core::Checkpoint& settled, std::int64_t counted) {
   constexpr double sets_in = 0.06;  // s: a fall of 18 diameters
-  constexpr std::int64_t counted = 800;
   core::Timers timers;
-  core::Scene scene = hopper();
   scene.dem.opening = opening;
   dem::Model model(scene, timers);
   model.start_from(settled);
@@ -85,7 +85,7 @@ TEST(DemHopper, FlowsByThePowerTwoAndAHalf) {
   std::vector<double> opening, rate;
   std::string points;
   for (const double d : {5.0, 6.0, 7.0, 8.0}) {
-    const Flow flow = flow_through(d * diameter, settled);
+    const Flow flow = flow_through(scene, d * diameter, settled, 800);
     ASSERT_GT(flow.rate, 0) << "jammed at " << d << " diameters";
     opening.push_back(std::log(d - 1.4));
     rate.push_back(std::log(flow.rate));
@@ -93,6 +93,22 @@ TEST(DemHopper, FlowsByThePowerTwoAndAHalf) {
   }
   testing::Test::RecordProperty("opening in diameters, particles per second, its standard error", points);
   compare("exponent of D - 1.4 d", slope(opening, rate), 2.5, 0.1, 1);
+}
+
+// The same in a cylinder, as high: two holes, whose rates are in the ratio of (D - 1.4 d)^2.5.
+TEST(DemHopper, OfTwoRoundSilosFlowsByBeverloosRatio) {
+  core::Timers timers;
+  core::Scene scene = hopper();
+  scene.column.shape = core::ColumnShape::cylinder;
+  scene.bed.particles = {7200};
+  const core::Checkpoint settled = dem::settled(scene, dem::Model(scene, timers).limits().dt, nullptr);
+  const Flow narrow = flow_through(scene, 6 * diameter, settled, 2400);
+  const Flow wide = flow_through(scene, 8 * diameter, settled, 2400);
+  ASSERT_GT(narrow.rate, 0);
+  testing::Test::RecordProperty(
+      "round silo, particles per second and standard errors",
+      fmt::format("6 d {:.5g} {:.2g}, 8 d {:.5g} {:.2g}", narrow.rate, narrow.scatter, wide.rate, wide.scatter));
+  compare("ratio of the rates through 8 and 6 diameters", wide.rate / narrow.rate, std::pow(6.6 / 4.6, 2.5), 0.03);
 }
 
 }  // namespace
