@@ -23,6 +23,14 @@ std::vector<core::Rule> key_rules() {
 
 const std::vector<core::Rule>& model_rules() {
   static const std::vector<core::Rule> all{
+      {{"column.shape"},
+       "column.shape = \"axisymmetric\": polybed tfm can run it, polybed dem cannot: particles go around the axis; use "
+       "\"cylinder\"",
+       [](const core::Scene& scene) { return core::broken_if(scene.column.around_axis()); }},
+      {{"column.shape", "fluid.name"},
+       "column.shape = \"cylinder\" with a fluid: polybed tfm can run it, polybed dem cannot: its particles know round "
+       "columns, its fluid does not yet; use column.shape = \"box\", or fluid.name = \"none\"",
+       [](const core::Scene& scene) { return core::broken_if(scene.column.is_round() && scene.fluid.present()); }},
       {{"column.outlet", "fluid.name", "fluid.equation_of_state"},
        "column.outlet = \"open\" in a compressible fluid: polybed tfm can run it, polybed dem cannot: the mass of the "
        "fluid that takes the place of a particle as it leaves would be missing; use fluid.equation_of_state = "

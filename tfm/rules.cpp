@@ -149,6 +149,8 @@ const std::vector<core::Rule>& model_rules() {
          const StartKind kind = s.bed.start.kind;
          return kind == StartKind::random || kind == StartKind::list ? Broken({text_of(s.bed.start)}) : Broken();
        }},
+      for_leaning_particles("column.shape", "in a round column",
+                            [](const Scene& s) { return s.column.shape != core::ColumnShape::box; }),
       for_leaning_particles("column.closed", "without column.closed = true",
                             [](const Scene& s) { return !s.column.closed; }),
       for_leaning_particles("column.sides", "with column.sides = \"periodic\"",

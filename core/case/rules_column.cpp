@@ -81,44 +81,6 @@ std::vector<Rule> axis_rules() {
        no_room}};
 }
 
-Rule shape_excludes(const std::string& key, const std::string& what, bool (*set)(const Scene&)) {
-  return {
-      {"column.shape", key}, "column.shape = \"{}\" and " + what + " contradict each other", [set](const Scene& scene) {
-        const ColumnShape shape = scene.column.shape;
-        return shape == ColumnShape::box || !set(scene) ? Broken() : Broken({std::string(name_of(shape))});
-      }};
-}
-
-Broken wrong_axes_of_shape(const Scene& scene) {
-  const Column& column = scene.column;
-  const bool is_cube = column.given_size.size() == 3;
-  if (column.is_round() && !is_cube) return Broken({"cylinder", "three numbers: diameter, diameter, height"});
-  if (column.around_axis() && is_cube) return Broken({"axisymmetric", "two numbers: radius, height"});
-  return {};
-}
-
-std::vector<Rule> shape_rules() {
-  return {
-      {{"column.shape", "column.size"}, "column.shape = \"{}\" needs a column.size of {}", wrong_axes_of_shape, true},
-      {{"column.shape", "column.size"},
-       "column.shape = \"cylinder\" needs one diameter as width and depth, they are {} and {} m",
-       [](const Scene& scene) {
-         const auto& size = scene.column.size;
-         if (!scene.column.is_round() || scene.column.given_size.size() != 3 || size[0] == size[2]) return Broken();
-         return Broken({fmt::format("{:g}", size[0]), fmt::format("{:g}", size[2])});
-       }},
-      shape_excludes("column.sides", "column.sides = \"periodic\"",
-                     [](const Scene& s) { return s.column.sides == Boundary::periodic; }),
-      shape_excludes("column.ends", "column.ends = \"periodic\"",
-                     [](const Scene& s) { return s.column.ends == Boundary::periodic; }),
-      shape_excludes("column.depth", "column.depth", [](const Scene& s) { return s.column.depth.has_value(); }),
-      shape_excludes("column.gravity_direction", "a column.gravity_direction other than down",
-                     [](const Scene& s) { return is_tilted(s.column); }),
-      shape_excludes("layer.from", "layer.from and layer.to", [](const Scene& s) {
-        return std::any_of(s.layers.begin(), s.layers.end(), [](const auto& layer) { return !layer.from.empty(); });
-      })};
-}
-
 std::vector<Rule> gravity_rules() {
   return {
       {{"column.gravity_direction", "column.size", "fluid.name", "fluid.equation_of_state"},
@@ -181,7 +143,7 @@ std::vector<Rule> shear_rules() {
 
 std::vector<Rule> column_rules() {
   std::vector<Rule> rules;
-  for (const auto& part : {axis_rules(), shape_rules(), gravity_rules(), end_rules(), shear_rules()})
+  for (const auto& part : {axis_rules(), gravity_rules(), end_rules(), shear_rules()})
     rules.insert(rules.end(), part.begin(), part.end());
   return rules;
 }

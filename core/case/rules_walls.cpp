@@ -39,7 +39,7 @@ Broken column_too_narrow(const Scene& scene) {
 Broken layers_with_corners(const Scene& scene) {
   Broken broken;
   for (std::size_t n = 0; n < scene.layers.size(); ++n)
-    if (scene.column.is_round() && !scene.layers[n].from.empty()) broken.add({std::to_string(n + 1)}, n);
+    if (scene.column.shape != ColumnShape::box && !scene.layers[n].from.empty()) broken.add({std::to_string(n + 1)}, n);
   return broken;
 }
 
@@ -66,31 +66,36 @@ Broken feeds_beyond_the_circle(const Scene& scene) {
 }
 
 std::vector<Rule> round_column_rules() {
-  return {{{"column.size", "column.shape"},
-           "column.shape = \"cylinder\" takes column.size = [diameter, diameter, height]",
-           not_round,
-           true},
-          {{"species.diameter", "column.size", "column.shape"},
-           "species.diameter: {} m is more than half the diameter of the round column, {} m",
-           column_too_narrow,
-           true},
-          {{"column.shape", "fluid.name"},
-           "column.shape = \"cylinder\": the fluid knows box-shaped columns only; set fluid.name = \"none\", or "
-           "column.shape = \"box\"",
-           [](const Scene& scene) { return broken_if(scene.column.is_round() && scene.fluid.present()); }},
-          {{"column.sides", "column.shape"},
-           "column.sides = \"periodic\" and column.shape = \"cylinder\" contradict each other: use column.sides = "
-           "\"wall\"",
-           [](const Scene& scene) {
-             return broken_if(scene.column.is_round() && scene.column.sides == Boundary::periodic);
-           }},
-          {{"layer.from", "column.shape"},
-           "[[layer]] number {} has corners, a round column has none: leave layer.from and layer.to out",
-           layers_with_corners},
-          {{"feed.from", "feed.to", "feed.species", "column.size", "column.shape"},
-           "[[feed]] of {} reaches beyond the round column, {} m in diameter: move feed.from and feed.to inwards, or "
-           "leave them out",
-           feeds_beyond_the_circle}};
+  return {
+      {{"column.size", "column.shape"},
+       "column.shape = \"cylinder\" takes column.size = [diameter, diameter, height]",
+       not_round,
+       true},
+      {{"species.diameter", "column.size", "column.shape"},
+       "species.diameter: {} m is more than half the diameter of the round column, {} m",
+       column_too_narrow,
+       true},
+      {{"column.shape", "column.size"},
+       "column.shape = \"axisymmetric\" takes column.size = [radius, height]",
+       [](const Scene& scene) { return broken_if(scene.column.around_axis() && scene.column.given_size.size() == 3); },
+       true},
+      {{"column.depth", "column.shape"},
+       "column.depth and column.shape = \"axisymmetric\" contradict each other: leave column.depth out",
+       [](const Scene& scene) { return broken_if(scene.column.around_axis() && scene.column.depth); }},
+      {{"column.sides", "column.shape"},
+       "column.sides = \"periodic\" and column.shape = \"{}\" contradict each other: use column.sides = \"wall\"",
+       [](const Scene& scene) {
+         const Column& column = scene.column;
+         if (column.shape == ColumnShape::box || column.sides != Boundary::periodic) return Broken();
+         return Broken({std::string(name_of(column.shape))});
+       }},
+      {{"layer.from", "column.shape"},
+       "[[layer]] number {} has corners, a round column has none: leave layer.from and layer.to out",
+       layers_with_corners},
+      {{"feed.from", "feed.to", "feed.species", "column.size", "column.shape"},
+       "[[feed]] of {} reaches beyond the round column, {} m in diameter: move feed.from and feed.to inwards, or "
+       "leave them out",
+       feeds_beyond_the_circle}};
 }
 
 Broken wall_ends_miscounted(const Scene& scene) {

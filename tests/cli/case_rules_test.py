@@ -5,7 +5,7 @@ import re
 import program
 from feed_rules import FEEDS, feeds
 from layer_rules import COUNTED, LAYERS
-from wall_rules import WALLS
+from wall_rules import AROUND, ROUND_CONTINUUM, ROUND_FOR_ONE_MODEL, WALLS
 from program import DONE, WRONG_CASE, Scratch, run, strict_json
 
 BED = """[column]
@@ -158,6 +158,8 @@ TFM_CANNOT = ": polybed dem can run it, polybed tfm cannot"
 TABLE = program.ROOT / "cases/small-binary/table.h5"
 CONTACT = "effects.contact: particles need a law of contact: hertz_mindlin, hertz or linear"
 ONE_MODEL = {
+    **ROUND_FOR_ONE_MODEL,
+    "column.gravity_direction other than down in a round column" + TFM_CANNOT: [*NO_FLUID, TILTED, AROUND],
     CONTACT: ["effects.contact=none"],  # a case that is not meant for particles has no note of it
     'fluid.name = "none"' + TFM_CANNOT: NO_FLUID,
     'column.ends = "periodic"' + TFM_CANNOT: [*NO_FLUID, JOINED],
@@ -175,6 +177,7 @@ ONE_MODEL = {
 # For each rule that the program lists what breaks it, in words of --set. {} stands for a word of the scene.
 BROKEN = {
     **KEYS,
+    **ROUND_CONTINUUM,
     **{f'effects.{role} = "{{}}" cannot act: fluid.name = "none"': [DRY, on(role)] for role in LAWS},
     **{f"effects.{role} cannot act in a sheared box: its fluid moves with its flow": ["dem.shear_rate=1", on(role)]
        for role in ("fluid_stress", "added_mass", "lift", "magnus", "history")},

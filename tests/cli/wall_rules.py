@@ -3,6 +3,7 @@ from feed_rules import feeds
 from layer_rules import COUNTED, FINE, layers
 
 ROUND = ["column.shape=cylinder", "column.size=[0.06,0.06,0.2]", "column.cells=[6,6,20]"]
+AROUND = "column.shape=axisymmetric"
 
 
 def wall(start, end, shape="flat"):
@@ -13,8 +14,9 @@ WALLS = {
     'column.shape = "cylinder" takes column.size = [diameter, diameter, height]': ["column.shape=cylinder"],
     "species.diameter: {} m is more than half the diameter of the round column, {} m": [
         "column.shape=cylinder", "column.size=[0.0015,0.0015,0.2]", "column.cells=[1,1,20]"],
-    'column.shape = "cylinder": the fluid knows box-shaped columns only; set fluid.name = "none", or column.shape = "box"': ROUND,
-    'column.sides = "periodic" and column.shape = "cylinder" contradict each other: use column.sides = "wall"': [
+    'column.shape = "axisymmetric" takes column.size = [radius, height]': ["column.shape=axisymmetric", *ROUND[1:]],
+    'column.depth and column.shape = "axisymmetric" contradict each other: leave column.depth out': [AROUND, "column.depth=0.01"],
+    'column.sides = "periodic" and column.shape = "{}" contradict each other: use column.sides = "wall"': [
         *ROUND, "column.sides=periodic"],
     "[[layer]] number {} has corners, a round column has none: leave layer.from and layer.to out": [
         *ROUND, *COUNTED, layers(FINE + ", from=[0.02, 0.02], to=[0.04, 0.04]")],
@@ -34,4 +36,17 @@ WALLS = {
         ('column.ends = "periodic" would end it at the bottom; use "wall"', ["column.ends=periodic"]),
         ('bed.start = "random" would place particles on both sides of it; use "mixed"', ["bed.start=random"]))},
     "[[wall]]: a cone or cylinder needs three dimensions; give column.size three numbers": [wall([0.02, 0.01], [0.04, 0.05], "cone")],
+}
+
+# Of the two-fluid model, and of one model alone.
+ROUND_CONTINUUM = {
+    'column.shape = "{}" and tfm.solids_wall = "{}" cannot be combined yet: the solids slip freely along round walls': [
+        AROUND, "tfm.solids_wall=johnson_jackson"],
+    'column.shape = "{}" and a compressible fluid cannot be combined yet; use fluid.equation_of_state = "incompressible"': [
+        AROUND, "fluid.equation_of_state=tait"],
+}
+ROUND_FOR_ONE_MODEL = {
+    'column.shape = "axisymmetric": polybed tfm can run it, polybed dem cannot: particles go around the axis; use "cylinder"': [AROUND],
+    'column.shape = "cylinder" with a fluid: polybed tfm can run it, polybed dem cannot: its particles know round columns, its fluid does '
+    'not yet; use column.shape = "box", or fluid.name = "none"': ROUND,
 }
