@@ -38,7 +38,8 @@ std::vector<double> solids_volumes(const core::Scene& scene) {
 /// The bed as it starts: its solids fraction and height.
 void measure_bed(const core::Scene& scene, Survey& s) {
   const auto& size = scene.column.size;
-  s.width = scene.column.dimensions == 3 ? std::min(size[0], size[2]) : size[0];
+  const double across = scene.column.around_axis() ? 2 * size[0] : size[0];
+  s.width = scene.column.dimensions == 3 ? std::min(across, size[2]) : across;
   s.column_height = size[1];
   const std::vector<double> volume = solids_volumes(scene);
   const double all = std::accumulate(volume.begin(), volume.end(), 0.0);

@@ -90,6 +90,8 @@ Grid whole_column(const Grid& block) {
   column.spacing = block.spacing;
   column.periodic = block.periodic;
   for (int axis = 0; axis < 3; ++axis) column.cells[std::size_t(axis)] = block.column_cells(axis);
+  if (block.metric)
+    column.metric = metric_of(column, block.metric->around_axis ? ColumnShape::axisymmetric : ColumnShape::cylinder);
   return column;
 }
 

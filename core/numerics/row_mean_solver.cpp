@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/numerics/metric.hpp"
 #include "core/vectors.hpp"
 
 namespace polybed::core {
@@ -61,7 +62,7 @@ bool RowMeanSolver::serves(const Grid& grid) { return grid.cells[0] <= most_acro
 RowMeanSolver::RowMeanSolver(const Grid& grid)
     : grid_(grid),
       halo_(grid),
-      x_(modes_of(grid, 0)),
+      x_(grid.metric && grid.metric->around_axis ? modes_of_rings(grid) : modes_of(grid, 0)),
       z_(modes_of(grid, 2)),
       up_(std::size_t(grid.cells[1] + 1)),
       diagonal_(std::size_t(grid.cells[1])),
@@ -95,10 +96,27 @@ RowMeanSolver::Modes RowMeanSolver::modes_of(const Grid& grid, int axis) {
   return modes;
 }
 
+/// Of sum alpha (p - p_next) = rate theta p, alpha and theta of the rings.
+RowMeanSolver::Modes RowMeanSolver::modes_of_rings(const Grid& grid) {
+  const CrossSection& rings = grid.metric->section;
+  const int n = rings.width;
+  Eigen::MatrixXd differences = Eigen::MatrixXd::Zero(n, n), volume = differences;
+  for (int i = 0; i < n; ++i) {
+    volume(i, i) = rings.volume[std::size_t(i)];
+    if (i == 0) continue;
+    const double open = rings.open_x[std::size_t(i)];
+    differences.block<2, 2>(i - 1, i - 1) += open * Eigen::Matrix2d{{1, -1}, {-1, 1}};
+  }
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> modes(differences, volume);
+  const Eigen::VectorXd rate = modes.eigenvalues().cwiseMax(0.0);
+  return {modes.eigenvectors(), {rate.begin(), rate.end()}};
+}
+
 /// Means over the cells of each height; false if coefficients differ too much along one.
 bool RowMeanSolver::average(const FaceSpans& coefficient, std::span<const double> shift) {
   const auto n = grid_.cells;
-  bool fine = true;
+  bool fine = !grid_.metric || grid_.metric->around_axis;  // where a wall cuts cells no row is even
+  if (!fine) return false;
   const auto mean = [&](int axis, int row) {
     const auto a = std::size_t(axis);
     std::array<int, 3> lo{0, row, 0}, hi{n[0], row + 1, n[2]};
@@ -106,7 +124,7 @@ bool RowMeanSolver::average(const FaceSpans& coefficient, std::span<const double
     double sum = 0, least = INFINITY, most = 0;
     for_each_row(grid_, lo, hi, [&](Index begin, Index end) {
       for (auto c = std::size_t(begin); c < std::size_t(end); ++c) {
-        const double b = coefficient[a][c];
+        const double b = coefficient[a][c] / (grid_.metric ? grid_.metric->open[a][c] : 1.0);
         sum += b;
         least = std::min(least, b);
         most = std::max(most, b);

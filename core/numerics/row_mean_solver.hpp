@@ -28,13 +28,15 @@ class RowMeanSolver {
  private:
   using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-  /// The waves that fit across an axis, which the second difference there only scales.
+  /// The waves that fit across an axis of the grid, which the second difference there only scales; of rings what takes
+  /// their place.
   struct Modes {
-    Matrix waves;              ///< a column each, of length 1
+    Matrix waves;              ///< a column each, of length 1; of rings by volume
     std::vector<double> rate;  ///< times minus the second difference of spacing 1
   };
 
   [[nodiscard]] static Modes modes_of(const Grid& grid, int axis);
+  [[nodiscard]] static Modes modes_of_rings(const Grid& grid);
   [[nodiscard]] bool average(const FaceSpans& coefficient, std::span<const double> shift);
   void factorise();
   void precondition(const Field& r, Field& z);

@@ -32,16 +32,23 @@ double value_at(const std::vector<std::pair<double, double>>& points, double tim
   return before->second + share * (after->second - before->second);
 }
 
+/// Share of the bottom that a jet takes.
+double share_of_bottom(const core::Column& column, const core::Jet& jet) {
+  if (jet.from.empty() || jet.to.empty()) return 1;
+  if (column.around_axis())
+    return (jet.to[0] * jet.to[0] - jet.from[0] * jet.from[0]) / (column.size[0] * column.size[0]);
+  double area = jet.to[0] - jet.from[0];
+  const bool wide = jet.from.size() < 2 || jet.to.size() < 2;
+  area *= wide ? column.size[2] : jet.to[1] - jet.from[1];
+  return area / column.cross_section();
+}
+
 /// Mean over the bottom: jets have a velocity of their own on their part of it.
 double velocity_at_end(const core::Scene& scene) {
   const double inlet = value_at(scene.inlet.superficial_velocity, scene.run.until);
   double mean = inlet;
-  for (const core::Jet& jet : scene.jets) {
-    double part = 1;
-    for (std::size_t side = 0; side < std::min(jet.from.size(), jet.to.size()); ++side)
-      part *= (jet.to[side] - jet.from[side]) / scene.column.size[side == 0 ? 0 : 2];
-    mean += part * (value_at(jet.superficial_velocity, scene.run.until) - inlet);
-  }
+  for (const core::Jet& jet : scene.jets)
+    mean += share_of_bottom(scene.column, jet) * (value_at(jet.superficial_velocity, scene.run.until) - inlet);
   return mean;
 }
 
