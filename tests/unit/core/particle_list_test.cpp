@@ -59,6 +59,15 @@ TEST_F(ListOfParticles, IsReadWithColumnsInAnyOrder) {
   EXPECT_THAT(list.velocity[1], testing::ElementsAre(-0.01, 0, 0));
 }
 
+TEST_F(ListOfParticles, LiesWithinARoundColumn) {
+  scene_.column.size = {0.06, 0.6, 0.06};
+  scene_.column.shape = ColumnShape::cylinder;
+  EXPECT_EQ(read("species,x,y,z\nfine,0.012,0.1,0.053\n").species.size(), 1U);  // 18 and 23 mm from the axis
+  EXPECT_THAT(message_of("species,x,y,z\nfine,0.012,0.1,0.055\n"),
+              HasSubstr("F:2:6: x = 0.012 m, z = 0.055 m: the centre lies outside the round column, 0.0308058 m from "
+                        "its axis, whose radius is 0.03 m"));
+}
+
 TEST_F(ListOfParticles, TellsAllThatIsWrongWithLineColumnAndSuggestion) {
   const std::string message = message_of(
       "species,x,y,z,vx\n"
