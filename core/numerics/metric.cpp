@@ -46,8 +46,9 @@ class Disc {
   double radius_;
 };
 
-/// A cell with less of its volume open becomes part of its neighbour: no small cell limits a step.
-constexpr double least_volume = 0.25;
+/// A cell with less of its volume open becomes part of its neighbour: no small cell limits a step, and the centre of
+/// what is left lies inside the wall.
+constexpr double least_volume = 0.5;
 
 /// Gives a small cell's volume to the neighbour across its largest face, or in equal parts across two alike, and closes
 /// it.
@@ -83,21 +84,6 @@ void absorb_small_cells(CrossSection& section) {
     if (section.volume_of(i, k) < least_volume) absorb(section, i, k);
 }
 
-/// Distance of a cell's open part from the wall, m: of its centroid, by 16 x 16 points.
-double distance_from_wall(double radius, double x, double z, double hx, double hz) {
-  constexpr int points = 16;
-  double mx = 0, mz = 0, count = 0;
-  for (int a = 0; a < points; ++a)
-    for (int b = 0; b < points; ++b) {
-      const double px = x + hx * (a + 0.5) / points, pz = z + hz * (b + 0.5) / points;
-      if (px * px + pz * pz > radius * radius) continue;
-      mx += px;
-      mz += pz;
-      ++count;
-    }
-  return count > 0 ? radius - std::hypot(mx, mz) / count : 0;
-}
-
 /// A disc as wide as the grid, cut out of its cells: areas and chords are exact.
 CrossSection round_section(const Grid& column) {
   const int nx = column.cells[0], nz = column.cells[2];
@@ -126,7 +112,8 @@ CrossSection round_section(const Grid& column) {
         section.wall.push_back(0);
         continue;
       }
-      const double distance = std::max(distance_from_wall(radius, x(i), z(k), hx, hz), 0.5 * theta / area);
+      const double to_centre = std::hypot(x(i) + 0.5 * hx, z(k) + 0.5 * hz);
+      const double distance = std::max(radius - to_centre, 0.1 * std::min(hx, hz));  // or it would limit steps
       section.wall.push_back(area / (distance * theta));
     }
   return section;

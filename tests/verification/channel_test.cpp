@@ -107,13 +107,13 @@ Channel pipe(int n, core::ColumnShape shape) {
 }
 
 TEST(Pipe, ConvergesToItsParabolaInSecondOrderAroundAnAxis) {
-  const Channel coarse = pipe(16, core::ColumnShape::axisymmetric), fine = pipe(32, core::ColumnShape::axisymmetric);
-  record("pipe around its axis: profile, 32", fine.profile);
-  record("pipe around its axis: gradient, 32", fine.gradient);
+  const Channel coarse = pipe(8, core::ColumnShape::axisymmetric), fine = pipe(16, core::ColumnShape::axisymmetric);
+  record("pipe around its axis: profile, 16", fine.profile);
+  record("pipe around its axis: gradient, 16", fine.gradient);
   EXPECT_GT(std::log2(coarse.profile / fine.profile), 1.9);
   EXPECT_GT(std::log2(coarse.gradient / fine.gradient), 1.9);
-  EXPECT_LT(fine.profile, 1e-3);
-  EXPECT_LT(fine.gradient, 1e-3);
+  EXPECT_LT(fine.profile, 4e-3);  // of second order: 1e-3 with 32 cells to the radius
+  EXPECT_LT(fine.gradient, 4e-3);
 }
 
 // Cells that the wall cuts: one and a half orders, and a percent of the resistance with 16 cells across.

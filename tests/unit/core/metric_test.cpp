@@ -40,10 +40,8 @@ TEST(RoundColumn, OfFourCellsIsFourQuarters) {
     EXPECT_EQ(section.x_face(0, n), 0);
     EXPECT_EQ(section.z_face(n, 2), 0);
   }
-  // The centroid of a quarter lies 4 R sqrt(2)/(3 pi) from the centre, 0.2 m from the wall; 16 x 16 points know it to
-  // a percent of R. Half of the cell's thickness, 0.14 m, is less.
-  const double distance = 0.5 - 0.5 * 4 * std::sqrt(2.0) / (3 * pi);
-  EXPECT_NEAR(section.wall[0], std::sqrt(2.0) / 0.5 / (pi / 4) / distance, 0.02 * section.wall[0]);
+  const double distance = 0.5 - 0.25 * std::sqrt(2.0);  // of the cell's centre from the wall, m
+  EXPECT_NEAR(section.wall[0], std::sqrt(2.0) / 0.5 / (pi / 4) / distance, 1e-12 * section.wall[0]);
 }
 
 TEST(RoundColumn, HasTheAreaOfItsCircleOnAnyGrid) {
@@ -61,7 +59,7 @@ TEST(RoundColumn, IsTheSameTurnedAndMirroredAndHasNoSmallCells) {
         const double theta = section.volume_of(i, k);
         EXPECT_NEAR(theta, section.volume_of(k, i), 1e-13);
         EXPECT_NEAR(theta, section.volume_of(cells - 1 - i, k), 1e-13);
-        EXPECT_TRUE(theta == 0 || theta >= 0.25 - 1e-13) << theta;
+        EXPECT_TRUE(theta == 0 || theta >= 0.5 - 1e-13) << theta;
         const double open =
             section.x_face(i, k) + section.x_face(i + 1, k) + section.z_face(i, k) + section.z_face(i, k + 1);
         EXPECT_EQ(theta > 0, open > 0) << i << ' ' << k;
