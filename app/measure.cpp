@@ -10,6 +10,7 @@
 #include <set>
 
 #include "app/commands.hpp"
+#include "app/measure_means.hpp"
 #include "app/measure_text.hpp"
 #include "core/error.hpp"
 #include "core/output/files.hpp"
@@ -26,11 +27,8 @@ using measures::Profile;
 using Values = std::vector<measures::Value>;
 using Column = MeasuredColumn;
 
-/// The request.
-struct Asked {
-  std::vector<std::string> species;
-  std::vector<double> time;  ///< s, of the profiles of a run
-  std::vector<measures::Bed> beds;
+/// The request: a run, or profiles without times.
+struct Asked : measures::StoredRun {
   std::optional<Profile> reference;
   bool laid = false;  ///< on slabs that are asked for
 };
@@ -151,24 +149,25 @@ Asked read_asked(const core::Json& value) {
   return asked;
 }
 
-Asked read_profiles_of(const std::string& file) {
+/// What is made of the JSON of a file, or of standard input.
+template <class Make>
+auto of_given(const std::string& file, const Make& make) {
   if (file != "-") {
     const core::Json value = core::read_json(file);
-    return naming(file, [&] { return read_asked(value); });
+    return naming(file, [&] { return make(value); });
   }
   const std::string text{std::istreambuf_iterator<char>(std::cin), {}};
-  return naming("standard input", [&] { return read_asked(core::parse_json(text)); });
+  return naming("standard input", [&] { return make(core::parse_json(text)); });
 }
 
 /// In the order of the case, which the columns of the history keep.
-std::vector<std::string> species_of(const std::filesystem::path& run, const core::Profiles& profiles) {
+std::vector<std::string> species_of(const std::filesystem::path& run, const core::Profiles& profiles,
+                                    const std::vector<std::string>& columns) {
   const std::string front = "phi_";
   std::vector<std::string> stored;
   for (const std::string& name : profiles.names)
     if (name.starts_with(front)) stored.push_back(name.substr(front.size()));
   if (stored.empty()) throw core::FileError((run / "profiles.h5").string() + " has no phi_NAME of a species");
-  if (!std::filesystem::exists(run / "history.csv")) return stored;
-  const std::vector<std::string> columns = core::read_history(run).columns;
   const auto place = [&](const std::string& name) {
     return std::find(columns.begin(), columns.end(), "centre_" + name + "_m");
   };
@@ -179,7 +178,10 @@ std::vector<std::string> species_of(const std::filesystem::path& run, const core
 Asked read_run(const std::filesystem::path& run) {
   if (!std::filesystem::is_directory(run)) throw core::FileError(run.string() + ": no such run directory");
   const core::Profiles stored = core::read_profiles(run);
-  Asked asked{species_of(run, stored), stored.time, {}, {}};
+  Asked asked;
+  if (std::filesystem::exists(run / "history.csv")) asked.history = core::read_history(run);
+  asked.species = species_of(run, stored, asked.history.columns);
+  asked.time = stored.time;
   const std::size_t slabs = stored.height.size();
   const auto row_of = [&](const std::string& name, std::size_t n) {
     const std::vector<double>& all = stored.of(name).values;
@@ -245,7 +247,8 @@ core::Json json_of(const std::vector<measures::Bed>& beds) {
   return json;
 }
 
-void print_json(const Asked& asked, bool of_run) {
+void print_json(const Asked& asked, const MeasureOptions& options) {
+  const bool of_run = options.profiles.empty();
   core::Json json;
   if (of_run) json["time_s"] = asked.time;
   core::Json& of_beds = json["measures"] = core::Json::object();
@@ -254,6 +257,11 @@ void print_json(const Asked& asked, bool of_run) {
   if (asked.reference) json["distances"] = core::Json::object();
   for (const Column& column : distances(asked)) json["distances"][column.name] = json_of(column.values);
   if (asked.laid) json["profiles"] = json_of(asked.beds);
+  if (of_run && options.beside.empty()) add_means(json, options, asked, nullptr);
+  if (!options.beside.empty()) {
+    const Asked beside = read_run(options.beside);
+    add_means(json, options, asked, &beside);
+  }
   core::print("{}\n", core::json_text(json));
 }
 
@@ -283,13 +291,13 @@ void print_in_si(const Asked& asked, bool of_run) {
 
 void run_measure(const MeasureOptions& options) {
   if (options.list) return print_measures(options);
+  if (!options.series.empty()) return core::print("{}\n", core::json_text(of_given(options.series, means_of_series)));
   const bool of_run = options.profiles.empty();
-  const Asked asked = of_run ? read_run(options.run) : read_profiles_of(options.profiles);
-  if (options.json) return print_json(asked, of_run);
+  const Asked asked = of_run ? read_run(options.run) : of_given(options.profiles, read_asked);
+  if (options.json) return print_json(asked, options);
   if (options.csv) return print_in_si(asked, of_run);
   if (options.details || !of_run || asked.time.empty()) return print_table(all_columns(asked, of_run), of_run);
-  const bool has_history = std::filesystem::exists(options.run / "history.csv");
-  print_summary(asked.time, measured(asked), has_history ? core::read_history(options.run) : core::History{});
+  print_summary(asked, measured(asked));
 }
 
 }  // namespace
@@ -298,12 +306,21 @@ void add_measure(CLI::App& app, Commands& commands) {
   const auto options = std::make_shared<MeasureOptions>();
   CLI::App& command = *app.add_subcommand("measure", "bed height, centres, mixing, ... of the profiles of a run");
   CLI::Option_group& what = *command.add_option_group("what");
-  what.add_option("RUN", options->run, "run directory");
+  CLI::Option* run = what.add_option("RUN", options->run, "run directory");
   what.add_option("--profiles", options->profiles, "JSON file of profiles instead; - reads standard input");
+  CLI::Option* series = what.add_option("--series", options->series, "JSON file of numbers instead, for their means");
   CLI::Option* list = what.add_flag("--list", options->list, "instead: every measure with its unit and definition");
   what.require_option(1);
   command.add_flag("--markdown", options->markdown, "of the list: the page of the documentation")->needs(list);
   CLI::Option* json = command.add_flag("--json", options->json, "one JSON object");
+  series->needs(json);
+  const auto take = [&](const char* name, auto& value, const char* help) {
+    return command.add_option(name, value, help)->needs(run)->needs(json);
+  };
+  take("--beside", options->beside, "another run, to be measured over the same window");
+  CLI::Option* begin = take("--begin", options->begin, "of the window, s; by default it is chosen");
+  take("--end", options->end, "likewise")->needs(begin);
+  take("--slabs", options->slabs, "lay the profiles on so many slabs first")->check(CLI::Range(1, 1000000));
   command.add_flag("--csv", options->csv, "comma-separated, in SI units")->excludes(json);
   command.add_flag("--details", options->details, "of a run: every stored time instead of means over its last quarter");
   commands.push_back({&command, doing([options] { run_measure(*options); })});

@@ -82,10 +82,11 @@ struct Series {
   std::vector<double> time, value;  ///< s; NaN: there was nothing to measure
 };
 
-Series series_of(const MeasuredColumn& column, const std::vector<double>& time, const core::History& history) {
+Series series_of(const MeasuredColumn& column, const measures::StoredRun& run) {
+  const core::History& history = run.history;
   const auto found = std::find(history.columns.begin(), history.columns.end(), column.heading);
   if (found != history.columns.end()) return {history.values.front(), history.of(column.heading)};
-  Series series{time, {}};
+  Series series{run.time, {}};
   for (const measures::Value& value : column.values)
     series.value.push_back(value.value_or(std::numeric_limits<double>::quiet_NaN()));
   return series;
@@ -114,21 +115,18 @@ void print_table(const std::vector<MeasuredColumn>& measured, bool of_run) {
   core::print("definitions: polybed measure --list; --csv, --json: SI units, all digits\n");
 }
 
-void print_summary(const std::vector<double>& time, const std::vector<MeasuredColumn>& measured,
-                   const core::History& history) {
-  constexpr double last_part = 0.25;
-  const std::vector<double>& covered =
-      history.values.empty() || history.values.front().empty() ? time : history.values.front();
-  const double end = covered.back(), begin = end - last_part * (end - covered.front());
-  core::print("{:24} {:>20} {:>12}\n", "", fmt::format("mean, {:.3g} to {:.3g} s", begin, end), "at the end");
+void print_summary(const measures::StoredRun& run, const std::vector<MeasuredColumn>& measured) {
+  const bool has_rows = !run.history.values.empty() && !run.history.values.front().empty();
+  const measures::Window window = measures::last_quarter(has_rows ? run.history.values.front() : run.time);
+  core::print("{:24} {:>20} {:>12}\n", "", fmt::format("mean, {:.3g} to {:.3g} s", window.begin, window.end),
+              "at the end");
   for (const MeasuredColumn& column : measured) {
     const auto has_value = [](const measures::Value& value) { return value.has_value(); };
     if (std::none_of(column.values.begin(), column.values.end(), has_value)) continue;
     const auto [scale, unit] = shown_unit(column);
-    const Series series = series_of(column, time, history);
-    const auto first = std::lower_bound(series.time.begin(), series.time.end(), begin) - series.time.begin();
-    const std::optional<Mean> mean = mean_of_parts({series.time.begin() + first, series.time.end()},
-                                                   {series.value.begin() + first, series.value.end()});
+    const Series series = series_of(column, run);
+    const measures::Rows rows = window.rows(series.time);
+    const auto mean = measures::time_mean(std::span(series.value).subspan(rows.begin, rows.count()));
     const bool ends = !series.value.empty() && std::isfinite(series.value.back());
     core::print("{:24} {:>20} {:>12}  {}\n", in_words(column.name), mean ? mean_text(*mean, scale, "") : "-",
                 ends ? fmt::format("{:.4g}", scale * series.value.back()) : "-", unit);
@@ -136,7 +134,7 @@ void print_summary(const std::vector<double>& time, const std::vector<MeasuredCo
   core::print(
       "means over the last quarter of the run, with 95 % intervals where it has rows enough\n"
       "all {} stored times: --details; definitions: --list; SI units, all digits: --csv, --json\n",
-      time.size());
+      run.time.size());
 }
 
 }  // namespace polybed::app

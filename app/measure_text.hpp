@@ -5,8 +5,7 @@
 #include <vector>
 
 #include "app/studies.hpp"
-#include "core/output/history.hpp"
-#include "measures/table.hpp"
+#include "measures/window.hpp"
 
 namespace polybed::app {
 
@@ -21,8 +20,7 @@ void print_table(const std::vector<MeasuredColumn>& columns, bool of_run);
 
 /// Of each measure of a run its mean over the last quarter with the interval, and its value at the end: those of its
 /// result card, by the rows of the history where these have the measure, else by the stored profiles.
-/// \param time  s, of each value of the columns; not empty  \param history  empty: the run has none
-void print_summary(const std::vector<double>& time, const std::vector<MeasuredColumn>& columns,
-                   const core::History& history);
+/// \param run  with beds, of which the columns are
+void print_summary(const measures::StoredRun& run, const std::vector<MeasuredColumn>& columns);
 
 }  // namespace polybed::app

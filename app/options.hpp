@@ -33,11 +33,16 @@ struct RunOptions : CaseOptions {
   bool stress_uncertainty = false;   ///< of the TFM: again with its stress table at plus and minus one standard error
 };
 
-/// Options of what is read off profiles: one of the first three is given.
+/// Options of what is read off runs, profiles or series: one of the first four is given.
 struct MeasureOptions {
   std::filesystem::path run;  ///< a run directory
   std::string profiles;       ///< a JSON file of profiles; "-": standard input
+  std::string series;         ///< a JSON file of numbers; likewise
   bool list = false;          ///< the measures themselves
+  // Of the means of a run.
+  std::filesystem::path beside;      ///< another run, over the same window; empty: none
+  std::optional<double> begin, end;  ///< of the window, s; without a begin the window is chosen
+  std::size_t slabs = 0;             ///< on which profiles are laid; 0: their own
   bool markdown = false, json = false, csv = false, details = false;
 };
 

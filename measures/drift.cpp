@@ -5,21 +5,21 @@
 #include <cmath>
 #include <limits>
 
+#include "measures/time_mean.hpp"
+
 namespace polybed::measures {
 
 namespace {
 
 constexpr std::size_t parts = 10;
-constexpr double student = 2.306;      // 97.5 % quantile, eight degrees of freedom
-constexpr double window_share = 0.25;  // of the time seen
-constexpr double matters = 1e-3;       // of the bed's height
+constexpr double matters = 1e-3;  // of the bed's height
 
-struct Means {
+struct Parts {
   std::array<double, parts> time{}, value{};
 };
 
-std::optional<Means> means_of_parts(std::span<const double> time, std::span<const double> value) {
-  Means sum;
+std::optional<Parts> means_of_parts(std::span<const double> time, std::span<const double> value) {
+  Parts sum;
   std::array<double, parts> count{};
   const double begin = time.front(), length = time.back() - begin;
   for (std::size_t n = 0; n < time.size(); ++n) {
@@ -56,7 +56,7 @@ std::optional<Drift> drift_of(std::span<const double> time, std::span<const doub
     const double residual = means->value[n] - y_mean - drift.rate * (means->time[n] - t_mean);
     left += residual * residual;
   }
-  drift.error = student * std::sqrt(left / (parts - 2) / tt);
+  drift.error = student_quantile(parts - 2) * std::sqrt(left / (parts - 2) / tt);
   return drift;
 }
 

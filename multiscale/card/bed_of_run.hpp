@@ -9,23 +9,18 @@
 #include "core/case/scene.hpp"
 #include "core/output/history.hpp"
 #include "measures/drift.hpp"
+#include "measures/window.hpp"
 #include "multiscale/card/bed_of_case.hpp"
 
 namespace polybed::multiscale {
 
-/// A time mean.
-struct Mean {
-  double value = 0;
-  std::optional<double> interval;  ///< half-width of its 95 % interval; empty: too few rows
-};
-
 /// Over the last quarter of the time that the history covers.
 struct BedOfRun {
-  double window = 0;             ///< s
-  bool hangs = false;            ///< lighter than the fluid, and not pressed onto the bottom
-  std::optional<Mean> height;    ///< m; of a bed that hangs nothing
-  std::optional<Mean> drop;      ///< pressure drop over the buoyant weight
-  std::optional<double> mixing;  ///< 1 mixed, 0 separated
+  double window = 0;                         ///< s
+  bool hangs = false;                        ///< lighter than the fluid, and not pressed onto the bottom
+  std::optional<measures::TimeMean> height;  ///< m; of a bed that hangs nothing
+  std::optional<measures::TimeMean> drop;    ///< pressure drop over the buoyant weight
+  std::optional<double> mixing;              ///< 1 mixed, 0 separated
   Fluidisation state{};
   std::string layers;  ///< mixed | layered (denser, or else larger, below) | inverted; empty: one species
   std::map<std::string, double> out;       ///< kg since the start, of a scene that lets particles out
@@ -35,10 +30,6 @@ struct BedOfRun {
   std::optional<bool> steady;              ///< empty: too few rows
   std::vector<measures::DriftOfMeasure> drifts;
 };
-
-/// A mean of ten parts of a series, with the interval of Student's of nine degrees of freedom: what varies within a
-/// part is averaged, and parts count as independent. Empty where no entry is finite.
-[[nodiscard]] std::optional<Mean> mean_of_parts(const std::vector<double>& time, const std::vector<double>& value);
 
 /// What the rows say; entries that a history lacks are empty, and all of fewer than ten listed particles.
 /// Packed and fluidised are told apart by the pressure drop, 95 % of the weight; carried out is a bed of which less

@@ -15,9 +15,9 @@ namespace polybed::multiscale {
 
 namespace {
 
-core::Json json_of(const std::optional<Mean>& mean) {
+core::Json json_of(const std::optional<measures::TimeMean>& mean) {
   if (!mean) return nullptr;
-  return {{"value", mean->value}, {"interval", core::or_null(mean->interval)}};
+  return {{"value", mean->mean}, {"interval", core::or_null(mean->interval)}};
 }
 
 core::Json json_or_null(const std::map<std::string, double>& values) {
@@ -166,11 +166,11 @@ std::string card_line(const std::string& heading, const std::string& text) {
   return fmt::format("{:13} {}", heading, text);
 }
 
-std::string mean_text(const Mean& mean, double scale, const std::string& unit) {
+std::string mean_text(const measures::TimeMean& mean, double scale, const std::string& unit) {
   constexpr double shown = 1e-4;  // of the value: four digits
-  const bool is_seen = mean.interval && *mean.interval > shown * std::abs(mean.value);
+  const bool is_seen = mean.interval && *mean.interval > shown * std::abs(mean.mean);
   const std::string interval = is_seen ? " ± " + one_digit(scale * *mean.interval) : "";
-  return fmt::format("{:.4g}{}{}", scale * mean.value, interval, unit);
+  return fmt::format("{:.4g}{}{}", scale * mean.mean, interval, unit);
 }
 
 std::string short_time(double seconds) {

@@ -38,7 +38,7 @@ void write_expected(core::Json& json, const core::Scene& scene, const BedOfCase&
 [[nodiscard]] std::string left_out_text(const LeftOut& left_out);
 
 /// A time mean with its interval, where that shows in four digits. \param scale  from SI to the unit
-[[nodiscard]] std::string mean_text(const Mean& mean, double scale, const std::string& unit);
+[[nodiscard]] std::string mean_text(const measures::TimeMean& mean, double scale, const std::string& unit);
 
 /// A computing time for people.
 [[nodiscard]] std::string short_time(double seconds);

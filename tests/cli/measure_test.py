@@ -70,6 +70,31 @@ class OfRun(Scratch):
         self.assertIn("all 5 stored times: --details", lines[-1])
         self.assertRegex(self.ends(DONE, "measure", run, "--details").stdout, r"(?m)^ *100 (.*\n) *200 (.*\n) *300 (.*\n) *400 ")
 
+    def test_means_over_a_window(self):
+        self.write("case.toml", small_bed("4 ms") + '[output]\nevery = "1 ms"\nhistory_every = "0.1 ms"\n')
+        for model in ("tfm", "dem"):
+            self.ends(DONE, model, self.folder / "case.toml", "-o", self.folder / model, "--quiet", "--no-picture")
+        runs = [self.folder / "tfm", "--beside", self.folder / "dem"]
+        chosen = strict_json(self.ends(DONE, "measure", *runs, "--json").stdout)
+        self.assertEqual(chosen["window"]["end_s"], 4e-3)
+        self.assertLessEqual({"composition", "profile", "profile_fine", "profile_coarse"}, chosen["distances"].keys())
+        found = strict_json(self.ends(DONE, "measure", *runs, "--json", "--begin", 1e-3, "--end", 3e-3, "--slabs", 8).stdout)
+        self.assertEqual(found["window"], {"begin_s": 1e-3, "end_s": 3e-3, "shortened": False})
+        for name, model in (("in_window", "tfm"), ("beside", "dem")):
+            part, rows = found[name], history(self.folder / model)
+            inside = [n for n, t in enumerate(rows["time_s"]) if 1e-3 - 1e-9 < t < 3e-3 + 1e-9]
+            self.assertEqual((part["rows"], part["profiles"], len(part["mean_profile"]["y_m"])), (len(inside), 3, 8))
+            drop = part["means"]["pressure_drop_Pa"]
+            self.assertAlmostEqual(drop["mean"], np.mean([rows["pressure_drop_Pa"][n] for n in inside]), delta=1e-9)
+            self.assertGreaterEqual(drop["correlation_rows"], 1)
+            self.assertEqual(part["mean_profile"]["fraction"]["fine"]["interval"], [None] * 8, "three profiles")
+
+    def test_options_of_means_are_for_the_json_of_a_run(self):
+        for words in (["--begin", 1], ["--json", "--end", 1], ["--json", "--slabs", 0]):
+            self.ends(WRONG_CASE, "measure", self.folder, *words)
+        self.ends(WRONG_CASE, "measure", "--profiles", "-", "--json", "--begin", 1)
+        self.ends(WRONG_CASE, "measure", "--series", "-")
+
     def test_the_python_package_has_the_table_as_it_is(self):
         """If not: polybed measure --list --json | python3 -m json.tool --indent 1 > python/polybed/measures.json"""
         table = strict_json((program.ROOT / "python/polybed/measures.json").read_text())
@@ -133,6 +158,11 @@ class OfProfiles(Scratch):
             said = self.ends(FILE, "measure", "--profiles", self.folder / "profiles.json", "--json").stderr
             self.assertIn(what, said)
             self.assertIn("profiles.json", said)
+
+    def test_series_are_refused_by_name(self):
+        for text in ('{"series": [1]}', '{"series": [["a"]]}', '{"ratios": [{"above": [1, 2], "below": [1]}]}'):
+            self.write("series.json", text)
+            self.assertIn("series.json", self.ends(FILE, "measure", "--series", self.folder / "series.json", "--json").stderr)
 
     def test_a_hundred_profiles_of_400_slabs_take_no_time(self):
         random = np.random.default_rng(1)

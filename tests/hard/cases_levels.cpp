@@ -6,9 +6,9 @@
 #include "core/numerics/random.hpp"
 #include "dem/coupling/coupling.hpp"
 #include "hard/cases.hpp"
-#include "hard/time_mean.hpp"
 #include "measures/bed.hpp"
 #include "measures/particle_profile.hpp"
+#include "measures/time_mean.hpp"
 #include "scenes/wet_beads.hpp"
 
 namespace polybed::hard {
@@ -93,8 +93,8 @@ Series as_continuum(core::Scene scene) {
   return series;
 }
 
-TimeMean later_half(const std::vector<double>& values) {
-  return time_mean(std::span(values).subspan(values.size() / 2)).value();
+measures::TimeMean later_half(const std::vector<double>& values) {
+  return measures::time_mean(std::span(values).subspan(values.size() / 2)).value();
 }
 
 /// C12: one bed of beads by both models: what they measure is the same, within the intervals of the means and what the
@@ -105,8 +105,8 @@ void both_models(Trial& trial) {
   const auto compare = [&](const std::string& what, const std::vector<double>& a, const std::vector<double>& b,
                            double scale) {
     constexpr double drag_error = 0.025;  // mean of the law against its data, docs/record/accuracy.md
-    const TimeMean p = later_half(a), q = later_half(b);
-    const double interval = std::hypot(p.error.value_or(0), q.error.value_or(0));
+    const measures::TimeMean p = later_half(a), q = later_half(b);
+    const double interval = std::hypot(p.interval.value_or(0), q.interval.value_or(0));
     trial.report(what + " of the continuum", p.mean);
     trial.report(what + " of particles", q.mean);
     trial.measure(what + " apart", std::abs(p.mean - q.mean) / scale, drag_error + interval / scale);
