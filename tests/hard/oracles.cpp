@@ -1,5 +1,6 @@
-// polybed-hard --oracles: what `polybed cost selftest` examines of the program itself. A particle that settles, by both
-// integrators, which must buy error with work at the rate of their order; and particles counted into slabs.
+// polybed-hard --oracles: what `polybed cost selftest` examines of the program itself. How often the interval of a mean
+// has the truth; a particle that settles, by both integrators, which must buy error with work at the rate of their
+// order; and particles counted into slabs.
 #include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -7,15 +8,32 @@
 
 #include "closures/sphere.hpp"
 #include "core/numerics/integrator.hpp"
+#include "core/numerics/random.hpp"
 #include "core/output/json.hpp"
 #include "core/output/particles.hpp"
 #include "core/print.hpp"
 #include "hard/options.hpp"
+#include "measures/time_mean.hpp"
 #include "scenes/snapshot_profile.hpp"
 
 namespace polybed::hard {
 
 namespace {
+
+/// Of autoregressive series of mean 0: in which share of them 0 is in the interval of the mean.
+double coverage() {
+  constexpr std::uint64_t series = 2000, rows = 2000, seed = 7;
+  constexpr double rho = 0.9;
+  double covered = 0;
+  for (std::uint64_t n = 0; n < series; ++n) {
+    std::vector<double> x{core::normal(seed, n, 0)};
+    for (std::uint64_t k = 1; k < rows; ++k)
+      x.push_back(rho * x.back() + std::sqrt(1 - rho * rho) * core::normal(seed, n, k));
+    const measures::TimeMean mean = measures::time_mean(x).value();
+    covered += std::abs(mean.mean) < mean.interval.value() ? 1 : 0;
+  }
+  return covered / double(series);
+}
 
 constexpr double acceleration = 6, terminal = 0.15, relaxation = terminal / acceleration;  // a bead of 1 mm in water
 
@@ -103,7 +121,8 @@ measures::Profile counted_layers() {
 
 core::ExitCode run_oracles() {
   const measures::Profile layers = counted_layers();
-  core::print("{}\n", core::json_text({{"settling", settling()},
+  core::print("{}\n", core::json_text({{"coverage", coverage()},
+                                       {"settling", settling()},
                                        {"counted", {{"slab", layers.slab}, {"fraction", layers.fraction}}}}));
   return core::ExitCode::done;
 }

@@ -17,10 +17,3 @@ def uniform(seed, sequence, index):
     with np.errstate(over="ignore"):  # 64 bits are meant
         begin = mixed_bits(mixed_bits(seed) ^ np.asarray(sequence, np.uint64))
         return (mixed_bits(begin + np.asarray(index, np.uint64)) >> np.uint64(11)) * 2.0**-53
-
-
-def normal(seed, sequence, index):
-    """Likewise of the normal distribution of mean 0 and deviation 1 (Box and Muller, 1958)."""
-    index = 2 * np.asarray(index, np.uint64)
-    radius = np.sqrt(-2 * np.log(1 - uniform(seed, sequence, index)))
-    return radius * np.cos(2 * np.pi * uniform(seed, sequence, index + np.uint64(1)))

@@ -10,8 +10,7 @@ from polybed.cost.runner import RunOrder, RunOutcome
 from polybed.cost.sweep import CANDIDATE, TWIN, Row, Sweep
 from polybed.cost.timing import is_chaotic
 from polybed.ending import WRONG_CASE, StudyError
-from polybed.study.measured import centre_column, species_of, within
-from polybed.study.time_mean import TimeMean
+from polybed.study.measured import TimeMean, centre_column, species_of, within
 
 WINDOW_BEGIN = 0.75  # of the run: the last quarter
 OVERDRAFT = 1.08  # of the budget, which is kept to a tenth

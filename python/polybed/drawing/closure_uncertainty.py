@@ -9,7 +9,7 @@ import numpy as np
 from polybed.drawing.style import COLOURS, GREY, PALE, STYLE
 from polybed.files import read_text
 from polybed.read import read
-from polybed.study.measured import centre_difference, history_of, species_of
+from polybed.study.measured import centre_column, history_of, species_of
 
 
 def draw_inversion(record, figure):
@@ -31,8 +31,9 @@ def draw_inversion(record, figure):
 def series_of(folder):
     """Time, bed height and centre difference of a run."""
     history = history_of(read(folder))
-    return history["time_s"], {"bed_height_m": history["bed_height_m"],
-                               "centre_difference": centre_difference(history, species_of(history))}
+    centres = [history[centre_column(name)] for name in species_of(history)][:2]
+    difference = (centres[1] - centres[0]) / history["bed_height_m"] if len(centres) > 1 else np.empty(0)
+    return history["time_s"], {"bed_height_m": history["bed_height_m"], "centre_difference": difference}
 
 
 def draw_runs(record, folder, figure):

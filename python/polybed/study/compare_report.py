@@ -25,8 +25,7 @@ def plain_profiles(found):
     """Means over time in the slabs; an error is null where there are too few profiles to tell it."""
     plain = {"y_m": found.height}
     for model in MODELS:
-        plain[model] = {f"phi_{name}": {"mean": [of.mean for of in means], "error": [of.error for of in means]}
-                        for name, means in zip(found.species, found.means[model], strict=True)}
+        plain[model] = {f"phi_{name}": {"mean": of["mean"], "error": of["interval"]} for name, of in found.fraction[model].items()}
     return plain
 
 

@@ -17,19 +17,16 @@ from polybed.packages import needed
 with needed(__name__ == "__main__"):
     from polybed.files import contents_of, read_bytes
     from polybed.folder import read_record
-    from polybed.read import read
     from polybed.record import drift_lines
     from polybed.study import inversion_report as report
     from polybed.study.cases import Case, hash_of, words_of
     from polybed.ending import DONE, WRONG_CASE, StudyError, answer, guarded
     from polybed.study.inversion_search import Mean, search
-    from polybed.study.measured import Columns, WindowProfiles, centre_difference, history_of, measures_of, species_of, \
-        window_of, within
+    from polybed.study.measured import means_of
     from polybed.study.output_folder import taken
     from polybed.study.record import draw, write_record
     from polybed.runner import flags, has_checkpoint, ranks, run
     from polybed.study.stress_uncertainty import moved_table
-    from polybed.study.time_mean import time_mean
 
 RAMP_SHARE = 0.02  # of a run, in which the velocity goes from that of the run before to its own: far from the window, the last quarter
 SURFACES = ("hamaker_constant", "cohesion_gap", "asperity_radius")  # keys that a choice of cohesion sets
@@ -93,35 +90,20 @@ def finished(directory):
     return path.exists() and read_record(path)["state"] == "done"
 
 
-def mean_of(directory, history, values, window):
-    mean = time_mean(within(history["time_s"], values, window))
-    if mean is None or mean.error is None:
-        raise StudyError(WRONG_CASE, f"{directory}: too few rows of its history in the last quarter to tell a mean: a smaller "
-                                     "output.history_every gives more")
-    return mean
-
-
 def measure(directory):
     """What a finished run has measured, as a scan looks at it."""
-    found = read(directory)
-    history, record = history_of(found), found.record
-    species, window = species_of(history), window_of(history)
-    b = mean_of(directory, history, centre_difference(history, species), window)
-    height = mean_of(directory, history, history["bed_height_m"], window)
-    with contents_of(found.directory / "run.json"):
-        return report.RunOfScan(b.mean, b.error, height.mean, height.error, window.begin, window.end, record["cpu_s"], directory,
-                                record["git_commit"], drift_lines(record), interface_of(found, species, window),
-                                record["integrator"])
-
-
-def interface_of(found, species, window):
-    """Height of the interface over that of the bed, of the mean profile in the window; None where there is none."""
-    profiles = WindowProfiles(Columns(found.directory / "profiles.h5", found.profiles), species, window)
-    if not profiles.count():
-        return None
-    measures = measures_of([profiles.mean()], species)["measures"]
-    [interface], [height] = measures["interface"]["values"], measures["bed_height"]["values"]
-    return interface / height if interface is not None and height else None
+    (begin, end, _), [run], _ = means_of(directory)
+    b, height = (run.means.get(name) for name in ("centre_difference", "bed_height_m"))
+    if b is None or height is None or b.error is None:
+        raise StudyError(WRONG_CASE, f"{directory}: too few rows of its history in the last quarter to tell a mean: a smaller "
+                                     "output.history_every gives more")
+    interface, top = (run.of_profile.get(name) for name in ("interface_m", "bed_height_m"))
+    over_height = interface.mean / top.mean if interface and top and top.mean else None
+    path = Path(directory) / "run.json"
+    record = read_record(path)
+    with contents_of(path):
+        return report.RunOfScan(b.mean, b.error, height.mean, height.error, begin, end, record["cpu_s"], directory, record["git_commit"],
+                                drift_lines(record), over_height, record["integrator"])
 
 
 def choice_of(keys):

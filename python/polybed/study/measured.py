@@ -1,8 +1,9 @@
-"""What runs have measured: columns of their histories and stored profiles, the time over which means are taken, and the measures of
-profiles, which the program defines: `polybed measure`."""
+"""What runs have measured: columns of their histories, and what `polybed measure` says: means over a window of time with the half-widths
+of their 95 % intervals, and measures of profiles."""
 
 import json
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
@@ -11,9 +12,7 @@ from polybed.files import DamagedError, FormatError
 from polybed.runner import call
 from polybed.read import read
 from polybed.record import drift_lines
-from polybed.study.time_mean import TimeMean, groups_left_out, jackknife_error, rows_to_drop
 
-WINDOW_SHARE = 0.25  # of a run: the last quarter
 ROUNDING = 1e-9  # of times at the ends of the window
 
 
@@ -31,9 +30,15 @@ class Columns(dict):
 @dataclass
 class Measured:
     """What a run has measured."""
+    directory: Path
     history: Columns
-    profiles: Columns
     drifts: list = field(default_factory=list)  # what still drifts at its end, a line each
+
+
+class TimeMean(NamedTuple):
+    mean: float
+    error: float | None = None  # half-width of the interval; None: too few rows to tell
+    correlation: float = 1.0  # integrated autocorrelation time, rows
 
 
 class Window(NamedTuple):
@@ -70,7 +75,7 @@ def measured(directory):
     for name in ("history.csv", "profiles.h5"):
         if not (run.directory / name).exists():
             raise FileNotFoundError(f"{run.directory / name} is missing: make it again with polybed, or restore it from a copy")
-    return Measured(history_of(run), Columns(run.directory / "profiles.h5", run.profiles), drift_lines(run.record))
+    return Measured(run.directory, history_of(run), drift_lines(run.record))
 
 
 def species_of(history):
@@ -83,88 +88,62 @@ def centre_column(species):
     return f"centre_{species}_m"
 
 
-def ratio(above, below):
-    """Quotients; NaN where the divisor is not above 0."""
-    return np.divide(above, below, out=np.full(len(above), np.nan), where=np.asarray(below) > 0)
-
-
-def centre_difference(history, species):
-    """Centre of species 2 less that of species 1, over the bed height, row by row; empty for one species."""
-    if len(species) < 2:
-        return np.empty(0)
-    return ratio(history[centre_column(species[1])] - history[centre_column(species[0])], history["bed_height_m"])
-
-
-def in_window(time, window):
-    """Which of these times the window has, truths; its end may lie beyond all of them."""
-    slack = ROUNDING * min([window.end, *time[-1:]])
-    return (time >= window.begin - slack) & (time <= window.end + slack)
-
-
 def within(time, values, window):
-    """The part of a series in the window; an empty series stays one."""
-    return values[in_window(time, window)] if len(values) else values
+    """The part of a series in the window, whose end may lie beyond all times."""
+    slack = ROUNDING * min([window.end, *time[-1:]])
+    return values[(time >= window.begin - slack) & (time <= window.end + slack)]
 
 
-def begin_by_rule(history, values, window):
-    """Where the marginal standard error rule would have the window begin, for one series, s."""
-    time = within(history["time_s"], history["time_s"], window)
-    drop = rows_to_drop(within(history["time_s"], values, window))
-    return time[drop] if 0 < drop < len(time) else window.begin
+def time_means(found):
+    return {name: TimeMean(mean["mean"], mean["interval"], mean.get("correlation_rows", 1.0)) for name, mean in found.items()}
 
 
-def window_of(*histories):
-    """The last quarter of the time that all have, or what the marginal standard error rule leaves of it for bed height and centre
-    difference of each. Raises FormatError if they have no time in common."""
-    times = [history["time_s"] for history in histories]
-    if not all(len(time) for time in times):
-        raise FormatError("a history without a row: nothing to compare")
-    first, last = max(0.0, *(time[0] for time in times)), min(time[-1] for time in times)
-    if not last > first:
-        spans = " and ".join(f"{time[0]:.4g} to {time[-1]:.4g} s" for time in times)
-        raise FormatError(f"the runs have no time in common: {spans}")
-    quarter = Window(last - WINDOW_SHARE * (last - first), last)
-    begin = max(begin_by_rule(history, values, quarter) for history in histories
-                for values in (history["bed_height_m"], centre_difference(history, species_of(history))))
-    return Window(float(begin), float(last), bool(begin > quarter.begin))
+class InWindow:
+    """What a run has measured in a window. means: of the columns of its history, of pressure_drop_over_weight and centre_difference;
+    height: of the slabs' centres, m; fraction: "mean" and "interval" in the slabs, by species; of_profile: measures of the mean profile"""
+
+    def __init__(self, found):
+        profile = found["mean_profile"]
+        self.rows, self.step, self.profiles = found["rows"], found["step_s"], found["profiles"]
+        self.means, self.of_profile = time_means(found["means"]), time_means(profile["measures"])
+        self.height, self.fraction = profile["y_m"], profile["fraction"]
+
+    @property
+    def profile(self):
+        """The mean profile; None without a stored one in the window."""
+        return Profile(2 * self.height[0], np.array([of["mean"] for of in self.fraction.values()])) if self.profiles else None
 
 
-class WindowProfiles:
-    """Profiles of a run in the window. Raises FormatError if one of the species has none."""
+class Means(NamedTuple):
+    """What `polybed measure` says of one run or two. distances: of their mean profiles"""
+    window: Window
+    runs: list
+    distances: dict
 
-    def __init__(self, profiles, species, window):
-        self.slab = 2 * float(profiles["y_m"][0])
-        stored = np.array([profiles[f"phi_{name}"] for name in species])
-        self.fraction = stored[:, in_window(profiles["time_s"], window)]  # [species][row][slab]
 
-    def count(self):
-        return self.fraction.shape[1]
+def means_of(directory, beside=None, begin=None, slabs=None):
+    """Means over the last quarter of the time that runs have, or what the marginal standard error rule leaves of it. Raises FormatError or
+    ProgramError if there is none.
 
-    def at(self, row):
-        """The profile of a row."""
-        return Profile(self.slab, self.fraction[:, row])
+    begin: of another window up to the end, s; slabs: number of those on which the profiles are laid first
+    """
+    options = {"--beside": beside, "--begin": begin, "--slabs": slabs}
+    words = [word for name, value in options.items() if value is not None for word in (name, value)]
+    found = json.loads(call("measure", directory, "--json", *words))
+    if found["in_window"] is None:
+        raise FormatError(f"{directory}: a history too short for means")
+    runs = [InWindow(found[name]) for name in ("in_window", "beside") if name in found]
+    return Means(Window(*found["window"].values()), runs, time_means(found.get("distances", {})))
 
-    def mean(self, kept=slice(None)):
-        """Mean over time, or over the rows that are kept."""
-        rows = self.fraction[:, kept]
-        return Profile(self.slab, (rows / rows.shape[1]).sum(axis=1))
 
-    def means_without_groups(self):
-        """Means over time without each of the groups of a jackknife."""
-        return [self.mean(kept) for kept in groups_left_out(self.count())]
+def statistics_of(series=(), ratios=()):
+    """What `polybed measure --series` says of numbers in equal steps of time, a dictionary each or None, and of quotients of sums."""
+    def plain(values):
+        return [value if np.isfinite(value) else None for value in map(float, values)]
 
-    def time_means(self):
-        """Mean solids fractions over time, [species][slab], each with its interval from leaving out groups of profiles, which of a mean
-        is that of batch means; without one for less than four profiles. Without a profile in the window no species has a slab."""
-        if not self.count():
-            return [[] for _ in self.fraction]
-        kept = groups_left_out(self.count())
-        found = []
-        for rows in self.fraction:
-            error = jackknife_error([rows[part].sum(axis=0) / part.sum() for part in kept])
-            errors = [None] * rows.shape[1] if error is None else error.tolist()
-            found.append([TimeMean(*pair) for pair in zip((rows.sum(axis=0) / self.count()).tolist(), errors)])
-        return found
+    asked = {"series": [plain(values) for values in series],
+             "ratios": [{"above": plain(above), "below": plain(below)} for above, below in ratios]}
+    return json.loads(call("measure", "--series", "-", "--json", given=json.dumps(asked)))
 
 
 def measures_of(profiles, species, on=None, reference=None):

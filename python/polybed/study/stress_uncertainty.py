@@ -17,14 +17,12 @@ with needed(__name__ == "__main__"):
     from polybed.calibration.fit import Table
     from polybed.calibration.service import Service
     from polybed.in_place import in_place
-    from polybed.read import read
     from polybed.solids_table import read_table
     from polybed.study.cases import Case, words_of
     from polybed.ending import DONE, WRONG_CASE, StudyError, guarded
-    from polybed.study.measured import centre_difference, history_of, species_of, window_of, within
+    from polybed.study.measured import means_of
     from polybed.study.record import remark, write_record
     from polybed.runner import flags, has_checkpoint, run
-    from polybed.study.time_mean import time_mean
 
 
 MOVED = ("p_ratio", "mu_ratio", "p_bed")  # pressures and viscosities of a table
@@ -59,10 +57,8 @@ def require_rising(table, sigma, moved):
 def late_means(directory):
     """Means of bed height and normalised centre difference over the window in which runs are compared, by name; None for what a run has
     not."""
-    history = history_of(read(directory))
-    series = {"bed_height_m": history["bed_height_m"], "centre_difference": centre_difference(history, species_of(history))}
-    means = {name: time_mean(within(history["time_s"], values, window_of(history))) for name, values in series.items()}
-    return {name: mean and mean.mean for name, mean in means.items()}
+    means = means_of(directory).runs[0].means
+    return {name: means[name].mean if name in means else None for name in ("bed_height_m", "centre_difference")}
 
 
 def band(name, unit, minus, table, plus):

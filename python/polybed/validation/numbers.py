@@ -14,8 +14,7 @@ from polybed.files import FormatError, contents_of, finite
 from polybed.read import read
 from polybed.record import case_of, drift_lines
 from polybed.runner import call
-from polybed.study.measured import history_of, window_of, within
-from polybed.study.time_mean import groups_left_out, jackknife_error, student_quantile, time_mean
+from polybed.study.measured import history_of, means_of, statistics_of, within
 from polybed.validation.entries import chosen_rows, script_of
 
 PACKED = (0.1, 0.6)  # pressure drop over weight between which the bed is packed
@@ -26,7 +25,6 @@ class Number(NamedTuple):
     value: float
     error: float | None = None  # half-width of the 95 % interval
     repeats: int = 1  # of the experiment
-    scatter: float = 0.0  # standard deviation of the repeats
 
 
 class Undecided(PlainError):
@@ -43,27 +41,16 @@ def of_repeats(values, error=None):
         return Number(values[0], error)
     if len(values) < 4:
         raise FormatError("an interval needs four repeats")
-    scatter = float(np.std(values, ddof=1))
-    return Number(float(np.mean(values)), student_quantile(len(values) - 1) * scatter / math.sqrt(len(values)), len(values), scatter)
-
-
-def deviation_of(values):
-    """Standard deviation in time; its interval leaves out groups of rows in turn."""
-    values = np.asarray(values, float)
-    if not len(values):
-        raise Undecided("no row in the window")
-    return Number(float(values.std()), jackknife_error([values[kept].std() for kept in groups_left_out(len(values))]))
-
-
-def mean_of(values):
-    found = time_mean(values)
-    if found is None:
-        raise Undecided("no row in the window")
-    return Number(found.mean, found.error)
+    [found] = statistics_of([values])["series"]
+    return Number(found["mean"], found["interval_of_repeats"], len(values))
 
 
 def of_series(how, values):
-    return {"mean": mean_of, "deviation": deviation_of}[how](values)
+    """Mean or standard deviation in time."""
+    [found] = statistics_of([values])["series"]
+    if found is None:
+        raise Undecided("no row in the window")
+    return Number(*(found[name] for name in {"mean": ("mean", "interval"), "deviation": ("deviation", "deviation_interval")}[how]))
 
 
 def measured_number(entry, run, compare):
@@ -107,11 +94,6 @@ def first_time(history, compare):
     return Number(float(time[reached[0]] - compare["since"]), float(time[reached[0]] - time[reached[0] - 1]))
 
 
-def meeting(velocity, carried):
-    """Where the straight line through the origin that fits a packed bed meets its weight."""
-    return float((velocity @ velocity) / (velocity @ carried))
-
-
 def meets_weight(record, history):
     """The velocity at which the line of the packed bed meets the weight, as u_mf is read off a measured curve; the velocity rises in
     time. The interval leaves out parts of the line in turn."""
@@ -119,10 +101,10 @@ def meets_weight(record, history):
     carried = history["pressure_drop_Pa"] / history["buoyant_weight_Pa"]
     packed = (carried >= PACKED[0]) & (carried <= PACKED[1]) & (np.maximum.accumulate(carried) <= PACKED[1])
     velocity, carried = np.interp(history["time_s"], *points.T)[packed], carried[packed]
-    kept = groups_left_out(len(velocity))
-    if not len(kept):
+    if len(velocity) < 4:
         raise Undecided("fewer than four rows of a packed bed")
-    return Number(meeting(velocity, carried), jackknife_error([meeting(velocity[part], carried[part]) for part in kept]))
+    [found] = statistics_of(ratios=[(velocity * velocity, velocity * carried)])["ratios"]  # of the straight line through the origin
+    return Number(found["value"], found["interval"])
 
 
 def run_number(entry, compare, directory):
@@ -133,7 +115,7 @@ def run_number(entry, compare, directory):
         return meets_weight(run.record, history)
     if how == "first_time":
         return first_time(history, compare)
-    window = window_of(history)
+    window = means_of(directory).window
     if "series" in compare:
         found = of_series(how, script_of(entry).simulated(run, window.begin)[compare["series"]][1])
     else:
@@ -148,7 +130,7 @@ def joint_interval(measured, model):
     None if one side has no interval."""
     if measured.error is None or model.error is None:
         return None
-    one_more = student_quantile(measured.repeats - 1) * measured.scatter if measured.repeats > 1 else 0.0
+    one_more = measured.error * math.sqrt(measured.repeats) if measured.repeats > 1 else 0.0
     return math.hypot(measured.error, model.error, one_more)
 
 

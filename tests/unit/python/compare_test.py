@@ -3,7 +3,9 @@
 
 import os
 import sys
+import tempfile
 import unittest
+from pathlib import Path
 from unittest import mock
 
 import numpy as np
@@ -11,11 +13,11 @@ import numpy as np
 os.environ["POLYBED"] = sys.argv.pop(1)  # has the measures of profiles
 sys.path.insert(0, sys.argv.pop(1))
 
-from polybed.files import FormatError  # noqa: E402
 from polybed import runner  # noqa: E402
-from polybed.study import cases, compare_report  # noqa: E402
-from polybed.study.measured import Columns, Measured  # noqa: E402
-from polybed.study.scores import add_inversion, compare  # noqa: E402
+from polybed.errors import ProgramError  # noqa: E402
+from polybed.study import cases, compare_report, scores  # noqa: E402
+from polybed.study.scores import add_inversion  # noqa: E402
+from stored_run import Written  # noqa: E402
 
 SLABS, SLAB = 50, 2e-3
 ROWS = 1001
@@ -32,8 +34,12 @@ def at_rest(level, surface, coarse_on_top=True, swing=0.0):
     below, above = np.where(z < level, 0.5, 0), np.where((z > level) & (z < surface), 0.5, 0)
     names = ("phi_fine", "phi_coarse") if coarse_on_top else ("phi_coarse", "phi_fine")
     profiles = {"time_s": np.arange(101.0), "y_m": z} | {name: np.tile(row, (101, 1)) for name, row in zip(names, (below, above))}
-    return Measured(Columns("history.csv", history | {name: np.full(ROWS, float(value)) for name, value in constant.items()}),
-                    Columns("profiles.h5", profiles))
+    return Written(history | {name: np.full(ROWS, float(value)) for name, value in constant.items()}, profiles)
+
+
+def compare(tfm, dem):
+    with tempfile.TemporaryDirectory() as folder:
+        return scores.compare(tfm.into(Path(folder) / "tfm"), dem.into(Path(folder) / "dem"))
 
 
 class Compare(unittest.TestCase):
@@ -50,12 +56,13 @@ class Compare(unittest.TestCase):
         c = compare(swings, at_rest(0.03, 0.06))
         self.assertEqual(c.species, ["fine", "coarse"])
         self.assertEqual(len(c.height), SLABS)
-        self.assertAlmostEqual(c.means["tfm"][0][0].mean, 0.51, delta=1e-14)
-        self.assertAlmostEqual(c.means["tfm"][0][0].error, 0.0227387, delta=1e-7)
-        self.assertEqual(c.means["tfm"][0][1][:2], (0.5, 0))
-        self.assertEqual(c.means["dem"][0][0].error, 0)
-        self.assertEqual(c.means["dem"][1][0].mean, 0)  # coarse on top
-        self.assertEqual(c.means["dem"][1][15].mean, 0.5)  # centre at 31 mm
+        tfm, dem = c.fraction["tfm"]["fine"], c.fraction["dem"]
+        self.assertAlmostEqual(tfm["mean"][0], 0.51, delta=1e-14)
+        self.assertAlmostEqual(tfm["interval"][0], 0.0227387, delta=1e-7)
+        self.assertEqual((tfm["mean"][1], tfm["interval"][1]), (0.5, 0))
+        self.assertEqual(dem["fine"]["interval"][0], 0)
+        self.assertEqual(dem["coarse"]["mean"][0], 0)  # coarse on top
+        self.assertEqual(dem["coarse"]["mean"][15], 0.5)  # centre at 31 mm
 
     def test_a_run_with_itself(self):
         run = at_rest(0.03, 0.06)
@@ -141,7 +148,7 @@ class Compare(unittest.TestCase):
 
     def test_what_a_run_does_not_have_stays_empty(self):
         few = at_rest(0.03, 0.06)
-        few.profiles["time_s"][:] = 0  # none in the window
+        few.profiles["time_s"] *= 0.5  # none in the window
         few.history["buoyant_weight_Pa"][:] = 0
         c = compare(few, at_rest(0.03, 0.06))
         self.assertIsNone(c.scores["D1"].value)
@@ -157,10 +164,11 @@ class Compare(unittest.TestCase):
         def refused(part, change, text):
             other = at_rest(0.03, 0.06)
             change(getattr(other, part))
-            with self.assertRaisesRegex(FormatError, text):
+            with self.assertRaisesRegex(ProgramError, text):
                 compare(run, other)
-        refused("history", lambda columns: columns.update(centre_sand_m=columns.pop("centre_coarse_m")), "other species")
-        refused("profiles", lambda columns: columns.update(y_m=columns["y_m"][:-1]), "other slabs")
+        refused("profiles", lambda columns: columns.update(phi_sand=columns.pop("phi_coarse")), "other species")
+        refused("profiles", lambda columns: columns.update({name: values[..., :-1] for name, values in columns.items() if name != "time_s"}),
+                "other slabs")
         refused("history", lambda columns: columns.update(time_s=columns["time_s"] + 1000), "no time in common")
         refused("history", lambda columns: columns.update({name: values[:0] for name, values in columns.items()}), "without a row")
 

@@ -3,6 +3,7 @@
 
 import os
 import sys
+import tempfile
 import unittest
 from math import e, inf
 from types import SimpleNamespace
@@ -18,7 +19,7 @@ from polybed.cost.axes import axes_of, grid_level, numbers  # noqa: E402
 from polybed.cost.fit import ErrorModel, PowerLaw, Priced, cheapest, fit_power_law, pareto_front  # noqa: E402
 from polybed.cost.judge import advice, carries  # noqa: E402
 from polybed.cost.markdown import sweep_markdown  # noqa: E402
-from polybed.cost.random import normal, uniform  # noqa: E402
+from polybed.cost.random import uniform  # noqa: E402
 from polybed.cost.refinement import refine  # noqa: E402
 from polybed.cost.runner import RunOrder, RunOutcome  # noqa: E402
 from polybed.cost.sweep import Row, Share, Sweep, SweepOptions  # noqa: E402
@@ -26,7 +27,8 @@ from polybed.cost.timing import is_chaotic, timing_of, too_noisy  # noqa: E402
 from polybed.cost.work import counters_of, weighed  # noqa: E402
 from polybed.files import FormatError  # noqa: E402
 from polybed.ending import StudyError  # noqa: E402
-from polybed.study.measured import Columns, Measured, Window  # noqa: E402
+from polybed.study.measured import Window  # noqa: E402
+from stored_run import Written  # noqa: E402
 
 
 class Selftest(unittest.TestCase):
@@ -115,9 +117,8 @@ class Times(unittest.TestCase):
         self.assertFalse(is_chaotic([1.0] * 9, [1.0 + 1e-15] * 9))
 
     def test_random_numbers_are_those_of_the_program(self):
-        """core::uniform and core::normal of seed 7, sequence 3, index 5, as C++ prints them to 17 digits."""
+        """core::uniform of seed 7, sequence 3, index 5, as C++ prints it to 17 digits."""
         self.assertEqual(f"{float(uniform(7, 3, 5)):.17g}", "0.67572910860470858")
-        self.assertAlmostEqual(float(normal(7, 3, 5)), 1.4852706564378706, delta=1e-15)
 
 
 class Work(unittest.TestCase):
@@ -231,19 +232,23 @@ class Quantities(unittest.TestCase):
         history = {"time_s": time, "bed_height_m": np.full(401, heights[-1]), "centre_a_m": np.full(401, heights[-1] / 2),
                    "pressure_drop_Pa": np.full(401, 90.0), "buoyant_weight_Pa": np.full(401, 100.0)}
         profiles = {"time_s": np.linspace(0, 10, rows + 1), "y_m": y, "phi_a": np.array([phi[n % len(phi)] for n in range(rows + 1)])}
-        return Measured(Columns("history.csv", history), Columns("profiles.h5", profiles))
+        return Written(history, profiles)
+
+    def quantities_of(self, run, on):
+        with tempfile.TemporaryDirectory() as folder:
+            return quantities.quantities_of_run(run.into(folder), on)
 
     def test_lengths_are_those_on_the_slabs_of_the_case(self):
         """The history has what the run's own slabs say; a coarser grid changes it by what its profiles change by."""
-        on = quantities.MeasureOn(0.2 / 40, 40, Window(7.5, 10))
-        same = quantities.quantities_of_run(self.run_of(40, [0.1]), on)
+        on = quantities.MeasureOn(40, Window(7.5, 10))
+        same = self.quantities_of(self.run_of(40, [0.1]), on)
         self.assertEqual(same.values["bed_height"].mean, 0.1)
         self.assertEqual(same.values["pressure_drop"].mean, 0.9)
-        coarse = quantities.quantities_of_run(self.run_of(20, [0.1]), on)
+        coarse = self.quantities_of(self.run_of(20, [0.1]), on)
         # Of 20 slabs of 10 mm the half of 0.5 is passed midway between the centres at 95 and 105 mm, of 40 between 97.5 and 102.5 mm.
         self.assertAlmostEqual(coarse.values["bed_height"].mean, 0.1, delta=1e-12)
         self.assertEqual(coarse.profile.fraction.shape, (1, 40))
-        off = quantities.quantities_of_run(self.run_of(20, [0.11]), quantities.MeasureOn(0.2 / 10, 10, Window(7.5, 10)))
+        off = self.quantities_of(self.run_of(20, [0.11]), quantities.MeasureOn(10, Window(7.5, 10)))
         # Of 10 slabs of 20 mm the sixth has 0.25. Between z_0.80 = 88 mm and z_0.95 = 109 mm the mean is (12 x 0.25 + 9 x 0.0625)/(12 x
         # 0.5 + 9 x 0.25); its half is passed above the centre at 110 mm, where the run's own slabs have the height.
         half = 0.5 * 3.5625 / 8.25
@@ -257,7 +262,7 @@ class Quantities(unittest.TestCase):
         run.history["bed_height_m"] = np.where(late, 0.12, 0.1)
         run.profiles["phi_a"][run.profiles["time_s"] > 7.4] = np.where(run.profiles["y_m"] < 0.12, 0.4, 0.0)
         on = quantities.measure_on({"column": {"size": [0.01, 0.2], "cells": [2, 40]}}, 7.5)
-        found = quantities.quantities_of_run(run, on)
+        found = self.quantities_of(run, on)
         self.assertEqual(found.values["bed_height"].mean, 0.12)
         np.testing.assert_allclose(found.profile.fraction[0, :24], 0.4)
 

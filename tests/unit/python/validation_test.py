@@ -23,6 +23,7 @@ from polybed.files import FormatError, read_text  # noqa: E402
 from polybed.study.cases import Case  # noqa: E402
 from polybed.validation import entries, numbers, report  # noqa: E402
 from polybed.validation.numbers import Number, Undecided, of_repeats, verdict  # noqa: E402
+from stored_run import Written  # noqa: E402
 
 RAMP = 'inlet = {superficial_velocity = [[0, 0], [10, 0.1]]}\nbed = {solids_fraction = 0.6, static_height = 0.06}\n'
 
@@ -35,8 +36,8 @@ def a_run(card=None, drift=None, **columns):
 
 def given(compare, run):
     entry = SimpleNamespace(measured=None, script=None, name="a")
-    with mock.patch.object(numbers, "read", lambda _: run):
-        return numbers.run_number(entry, compare, "run")
+    with mock.patch.object(numbers, "read", lambda _: run), tempfile.TemporaryDirectory() as folder:
+        return numbers.run_number(entry, compare, Written(run.history).into(folder).directory)
 
 
 class Entries(unittest.TestCase):
@@ -96,7 +97,7 @@ class Numbers(unittest.TestCase):
         self.assertAlmostEqual(measured.value, 7.50, delta=0.005)  # the source: 7.50 +- 0.88
         self.assertAlmostEqual(measured.error, 0.88, delta=0.005)
         joint = numbers.joint_interval(measured, Number(0, 0))
-        self.assertAlmostEqual(joint, 2.447 * measured.scatter * math.sqrt(1 + 1 / 7), delta=1e-9)
+        self.assertAlmostEqual(joint, measured.error * math.sqrt(7 + 1), delta=1e-9)
         with self.assertRaises(FormatError):
             of_repeats([1.0, 2.0])
 
@@ -119,7 +120,7 @@ class Numbers(unittest.TestCase):
             given(mean, a_run({"steady": None}, **rows))
 
     def test_a_deviation_has_an_interval(self):
-        found = numbers.deviation_of(np.sin(np.linspace(0, 40 * math.pi, 4001)))
+        found = numbers.of_series("deviation", np.sin(np.linspace(0, 40 * math.pi, 4001)))
         self.assertAlmostEqual(found.value, math.sqrt(0.5), delta=1e-3)
         self.assertLess(found.error, 0.01)
 
