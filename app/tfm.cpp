@@ -213,7 +213,6 @@ class TfmRun final : public CaseRun {
           "well-posedness: least dp_s/dphi over its critical {:.2g} Pa is {:.3g}, at ({}) m, t = {:.4g} s; below "
           "1 in {:.3g} % of the bed's cells at the end\n",
           least.cell.critical_slope, least.cell.least, place, least.time, 100 * least.share_below_now);
-    for (const std::string& text : drift_lines(observers_->drifts())) core::print(stderr, "{}\n", text);
     for (const std::string& text : evenness_) core::print(stderr, "{}\n", text);
     print_promise();
   }

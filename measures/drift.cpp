@@ -3,9 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
-#include "measures/time_mean.hpp"
+#include "measures/window.hpp"
 
 namespace polybed::measures {
 
@@ -60,27 +59,18 @@ std::optional<Drift> drift_of(std::span<const double> time, std::span<const doub
   return drift;
 }
 
-void Drifts::see(double time, std::span<const std::optional<double>> heights) {
-  time_.push_back(time);
-  for (std::size_t n = 0; n < names_.size(); ++n)
-    values_[n].push_back(heights[n].value_or(std::numeric_limits<double>::quiet_NaN()));
-}
-
-double Drifts::window() const { return time_.empty() ? 0 : window_share * (time_.back() - time_.front()); }
-
-std::vector<DriftOfMeasure> Drifts::judge() const {
+std::vector<DriftOfMeasure> drifts_of(std::span<const double> time,
+                                      const std::vector<std::pair<std::string, std::vector<double>>>& heights) {
   std::vector<DriftOfMeasure> found;
-  if (time_.empty()) return found;
-  const auto first = std::lower_bound(time_.begin(), time_.end(), time_.back() - window()) - time_.begin();
-  const auto in_window = [&](const std::vector<double>& all) {
-    return std::span<const double>(all).subspan(std::size_t(first));
-  };
-  for (std::size_t n = 0; n < names_.size(); ++n) {
-    const auto drift = drift_of(in_window(time_), in_window(values_[n]));
+  if (time.empty()) return found;
+  const Rows rows = last_quarter(time).rows(time);
+  for (const auto& [name, values] : heights) {
+    const auto in_window = std::span(values).subspan(rows.begin, rows.count());
+    const auto drift = drift_of(time.subspan(rows.begin, rows.count()), in_window);
     if (!drift || !std::isfinite(drift->rate)) continue;
-    const double until_doubled = std::abs(drift->rate) * (time_.back() - time_.front());
-    const bool steady = std::abs(drift->rate) <= drift->error || until_doubled <= matters * values_[0].back();
-    found.push_back({names_[n], *drift, steady});
+    const double until_doubled = std::abs(drift->rate) * (time.back() - time.front());
+    const bool steady = std::abs(drift->rate) <= drift->error || until_doubled <= matters * heights[0].second.back();
+    found.push_back({name, *drift, steady});
   }
   return found;
 }

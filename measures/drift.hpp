@@ -4,6 +4,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace polybed::measures {
@@ -24,24 +25,11 @@ struct DriftOfMeasure {
   bool steady = true;  ///< the drift cannot be told from 0, or does not matter
 };
 
-/// Follows the heights of a run: the first is that of the bed.
-class Drifts {
- public:
-  explicit Drifts(std::vector<std::string> names) : names_(std::move(names)), values_(names_.size()) {}
-
-  /// A row of heights, m, in the order of the names; one that has none is not judged while the window holds it.
-  void see(double time, std::span<const std::optional<double>> heights);
-
-  /// Length of the window that is judged, the last quarter of what was seen, s.
-  [[nodiscard]] double window() const;
-  /// What drifts in the window. It matters if another run as long would move it by more than a thousandth of the bed's
-  /// height. Empty for a measure that the window holds too few rows of.
-  [[nodiscard]] std::vector<DriftOfMeasure> judge() const;
-
- private:
-  std::vector<std::string> names_;
-  std::vector<double> time_;
-  std::vector<std::vector<double>> values_;  ///< [measure][row]; NaN: none
-};
+/// What the heights of a run still drift by over the last quarter of its time. It matters if another run as long would
+/// move one by more than a thousandth of the bed's height. Empty for a height that has too few rows there, or a row
+/// without a value.
+/// \param heights  by name, m, of each time; the first is that of the bed
+[[nodiscard]] std::vector<DriftOfMeasure> drifts_of(
+    std::span<const double> time, const std::vector<std::pair<std::string, std::vector<double>>>& heights);
 
 }  // namespace polybed::measures

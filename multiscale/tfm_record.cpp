@@ -1,7 +1,5 @@
 #include "multiscale/tfm_record.hpp"
 
-#include <fmt/format.h>
-
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -70,15 +68,6 @@ Json ledger_of(const tfm::Constants& constants, const RunTotals& totals, const m
 
 }  // namespace
 
-std::vector<std::string> drift_lines(const measures::Drifts& drifts) {
-  std::vector<std::string> lines;
-  for (const measures::DriftOfMeasure& d : drifts.judge())
-    if (!d.steady)
-      lines.push_back(fmt::format("not steady: drift of {} {:.3g} ± {:.2g} mm/s over the last {:.3g} s", d.name,
-                                  1e3 * d.drift.rate, 1e3 * d.drift.error, drifts.window()));
-  return lines;
-}
-
 std::vector<tfm::ClosureUse> closures_of(const tfm::Model& model, std::span<const tfm::ClosureUse> before) {
   std::vector<tfm::ClosureUse> closures;
   const tfm::Effects& effects = model.effects();
@@ -127,7 +116,7 @@ std::string run_record_text(const RunRecord& record) {
                {"cpu_s", record.totals.cpu_seconds},
                {"wall_s", record.totals.wall_seconds},
                {"cpu_s_per_simulated_s", simulated > 0 ? record.totals.cpu_seconds / simulated : 0.0}});
-  record.write_prediction(json);
+  record.write_card(json);
   json["work"] = work_of(model.work());
   if (record.state.starts_with("failed")) json["last_steps"] = last_steps_of(record.observers.last_steps());
   write_timers(json, record.timers);
@@ -140,8 +129,9 @@ std::string run_record_text(const RunRecord& record) {
   write_left_out(json, record.left_out);
   if (record.promise != nullptr) write_neglected(json, *record.promise);
   Json& warnings = json["warnings"] = exceeded_lines(record.observers.invariants().worst());
-  for (const auto& lines : {drift_lines(record.observers.drifts()), model.effects().warnings,
-                            scene_warnings(record.scene), grid_warnings(record.scene), record.warnings})
+  for (const Json& line : json.value("drift", Json::object()).value("lines", Json::array())) warnings.push_back(line);
+  for (const auto& lines :
+       {model.effects().warnings, scene_warnings(record.scene), grid_warnings(record.scene), record.warnings})
     for (const std::string& line : lines) warnings.push_back(line);
   return record.state.starts_with("failed") ? core::json_text_with_nulls(json) : core::json_text(json);
 }

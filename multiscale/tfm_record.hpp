@@ -9,7 +9,6 @@
 #include "core/case/scene.hpp"
 #include "core/output/json.hpp"
 #include "core/timers.hpp"
-#include "measures/drift.hpp"
 #include "multiscale/effects/left_out.hpp"
 #include "multiscale/effects/neglected.hpp"
 #include "tfm/observers.hpp"
@@ -48,13 +47,10 @@ struct RunRecord {
   double begin;       ///< simulated time at which this process began, s
   RunTotals totals;
   const LeftOut& left_out;
-  const Neglected* promise = nullptr;                 ///< what a monitor has seen; null without one
-  std::vector<std::string> warnings;                  ///< its own
-  std::function<void(core::Json&)> write_prediction;  ///< writes its own member
+  const Neglected* promise = nullptr;           ///< what a monitor has seen; null without one
+  std::vector<std::string> warnings;            ///< its own
+  std::function<void(core::Json&)> write_card;  ///< and the prediction: writes their members
 };
-
-/// One line for each height that still drifts.
-[[nodiscard]] std::vector<std::string> drift_lines(const measures::Drifts& drifts);
 
 /// The record as one JSON object.
 [[nodiscard]] std::string run_record_text(const RunRecord& record);

@@ -24,16 +24,6 @@ std::vector<double> slab_centres(const core::Grid& grid) {
   return y;
 }
 
-std::vector<measures::Single<measures::Bed>> heights_of(const Constants& constants) {
-  return measures::singles(measures::read_by(&measures::Readers::drift, measures::bed_table()), constants.name);
-}
-
-std::vector<std::string> names_of(const std::vector<measures::Single<measures::Bed>>& heights) {
-  std::vector<std::string> names;
-  for (const auto& height : heights) names.push_back(height.name);
-  return names;
-}
-
 /// Whether there are granular temperatures to write: unknowns, or found by a local balance.
 bool knows_temperature(const Model& model) { return !model.fields().solids.temperature.empty(); }
 
@@ -118,9 +108,7 @@ Observers::Observers(const Model& model, const std::filesystem::path& directory,
       invariants_(std::move(initial_mass), model.constants().name, rtol, model.effects().compressible != nullptr),
       history_(measures::bed_table(),
                history_table(model.effects().compressible != nullptr, model.constants().openings.present()),
-               model.constants().name),
-      heights_(heights_of(model.constants())),
-      drifts_(names_of(heights_)) {
+               model.constants().name) {
   const Constants& constants = model.constants();
   const bool compressible = model.effects().compressible != nullptr;
   core::on_first(ranks_, [&] {
@@ -129,23 +117,9 @@ Observers::Observers(const Model& model, const std::filesystem::path& directory,
         {directory, history_.columns(), resume_time},
         {directory, slab_centres(constants.grid), profile_names(constants, knows_temperature(model)), resume_time},
         {steps, core::kept_rows(steps, header_of_steps, resume_time)}});
-    if (resume_time) read_drifts(directory);
   });
   fields_.emplace(directory, constants.grid, field_names(constants, knows_temperature(model), compressible),
                   resume_time);
-}
-
-void Observers::read_drifts(const std::filesystem::path& directory) {
-  const core::History history = core::read_history(directory);
-  const std::vector<double>& time = history.values.front();
-  std::vector<std::optional<double>> row(heights_.size());
-  for (std::size_t n = 0; n < time.size(); ++n) {
-    for (std::size_t m = 0; m < row.size(); ++m) {
-      const double height = history.of(heights_[m].column())[n];
-      row[m] = std::isnan(height) ? std::nullopt : std::optional(height);
-    }
-    drifts_.see(time[n], row);
-  }
 }
 
 core::Json Observers::past() const {
@@ -196,7 +170,7 @@ void Observers::write_history(double time) {
   force_balance_ = bed.buoyant_weight != 0 ? measures::pressure_drop(bed.profile) / bed.buoyant_weight : 0;
   bed_height_ = measures::bed_height(bed.profile);
   const std::vector<measures::Value> row = history_.row(bed, told(watched, time));
-  watch(bed, well_posed.column());
+  watch(bed.time, well_posed.column());
   core::on_first(ranks_, [&] { files_->history.write_row(row); });
 }
 
@@ -215,13 +189,12 @@ Told Observers::told(const measures::Watched& column, double time) {
   return told;
 }
 
-void Observers::watch(const measures::Bed& bed, const WellPosedness& now) {
-  drifts_.see(bed.time, measures::values(heights_, bed));
+void Observers::watch(double time, const WellPosedness& now) {
   LeastWellPosed& least = least_well_posed_;
   least.share_below_now = now.share_below;
   if (now.lacks_more_than(least.cell)) {
     least.cell = now;
-    least.time = bed.time;
+    least.time = time;
   }
 }
 

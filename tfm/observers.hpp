@@ -8,7 +8,6 @@
 #include "core/output/output.hpp"
 #include "measures/bed.hpp"
 #include "measures/bed_table.hpp"
-#include "measures/drift.hpp"
 #include "measures/invariants.hpp"
 #include "tfm/history_table.hpp"
 #include "tfm/model.hpp"
@@ -50,8 +49,6 @@ class Observers {
   /// Pressure drop over buoyant weight in the last row of the history.
   [[nodiscard]] double force_balance() const { return force_balance_; }
   [[nodiscard]] const LeastWellPosed& least_well_posed() const { return least_well_posed_; }
-  /// Of the heights of bed and species; on the first rank since the run began, on others since this process did.
-  [[nodiscard]] const measures::Drifts& drifts() const { return drifts_; }
 
  private:
   /// What the first rank has open.
@@ -61,10 +58,8 @@ class Observers {
     core::LineFile steps;
   };
 
-  /// What does not go into a row: the drift of its heights, and how well-posed the equations are.
-  void watch(const measures::Bed& bed, const WellPosedness& now);
-  /// The drift of the rows that an earlier part of the run has written.
-  void read_drifts(const std::filesystem::path& directory);
+  /// What does not go into a row: how well-posed the equations are.
+  void watch(double time, const WellPosedness& now);
   /// The invariants, and what else the model alone knows.
   Told told(const measures::Watched& column, double time);
 
@@ -72,8 +67,6 @@ class Observers {
   const core::Ranks* ranks_;
   measures::Invariants invariants_;
   measures::History<Told> history_;
-  std::vector<measures::Single<measures::Bed>> heights_;  ///< whose drift is told
-  measures::Drifts drifts_;
   LeastWellPosed least_well_posed_;
   std::unique_ptr<Files> files_;
   std::optional<core::FieldWriter> fields_;  ///< every rank writes its block

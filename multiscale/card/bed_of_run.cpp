@@ -144,18 +144,13 @@ void find_discharge(const core::Scene& scene, const Window& window, const Invent
 }
 
 void judge_drift(const core::Scene& scene, const Window& window, BedOfRun& bed) {
-  std::vector<std::string> names{"bed_height"};
-  for (const core::Species& species : scene.species) names.push_back("centre_" + species.name);
-  measures::Drifts drifts(names);
-  for (std::size_t n = 0; n < window.time.size(); ++n) {
-    std::vector<std::optional<double>> row;
-    for (const std::string& name : names) {
-      const Series* all = column(window.history, name + "_m");
-      row.push_back(all != nullptr && std::isfinite((*all)[n]) ? std::optional((*all)[n]) : std::nullopt);
-    }
-    drifts.see(window.time[n], row);
-  }
-  bed.drifts = drifts.judge();
+  std::vector<std::pair<std::string, Series>> heights;
+  const auto add = [&](const std::string& name) {
+    if (const Series* all = column(window.history, name + "_m")) heights.emplace_back(name, *all);
+  };
+  add("bed_height");
+  for (const core::Species& species : scene.species) add("centre_" + species.name);
+  bed.drifts = measures::drifts_of(window.time, heights);
   for (const measures::DriftOfMeasure& drift : bed.drifts) bed.steady = bed.steady.value_or(true) && drift.steady;
 }
 

@@ -40,12 +40,22 @@ core::Json velocities_of(const core::Scene& scene, const BedOfCase& bed) {
           {"geldart", geldart.empty() ? core::Json() : geldart}};
 }
 
+/// One for each height that still drifts.
+std::vector<std::string> drift_lines(const BedOfRun& bed) {
+  std::vector<std::string> lines;
+  for (const measures::DriftOfMeasure& d : bed.drifts)
+    if (!d.steady)
+      lines.push_back(fmt::format("not steady: drift of {} {:.3g} ± {:.2g} mm/s over the last {:.3g} s", d.name,
+                                  1e3 * d.drift.rate, 1e3 * d.drift.error, bed.window));
+  return lines;
+}
+
 core::Json drift_of(const BedOfRun& bed) {
   core::Json measures = core::Json::array();
   for (const measures::DriftOfMeasure& d : bed.drifts)
     measures.push_back(
         {{"name", d.name}, {"rate_m_per_s", d.drift.rate}, {"error_m_per_s", d.drift.error}, {"steady", d.steady}});
-  return {{"window_s", bed.window}, {"measures", measures}};
+  return {{"window_s", bed.window}, {"measures", measures}, {"lines", drift_lines(bed)}};
 }
 
 bool matters(const LeftOut& left_out) { return left_out.sum > left_out.promise; }

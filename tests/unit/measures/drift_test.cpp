@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <random>
 
@@ -58,10 +59,10 @@ TEST(Drift, IsNotToldFromTooFewRows) {
 /// 40 s of a bed of 0.1 m, a row every 0.1 s; what its centre does in time is given.
 template <class Centre>
 std::vector<DriftOfMeasure> judged(Centre&& centre) {
-  Drifts drifts({"bed_height", "centre_fine"});
-  for (int n = 0; n <= 400; ++n) drifts.see(0.1 * n, std::vector<std::optional<double>>{0.1, centre(0.1 * n)});
-  EXPECT_NEAR(drifts.window(), 10, 1e-12);
-  return drifts.judge();
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  std::vector<double> values;
+  for (const double t : times(401, 0.1)) values.push_back(std::optional<double>(centre(t)).value_or(none));
+  return drifts_of(times(401, 0.1), {{"bed_height", std::vector(401, 0.1)}, {"centre_fine", values}});
 }
 
 // 1e-3 * 0.1 m/40 s = 2.5 um/s is what matters.
@@ -83,7 +84,7 @@ TEST(Drifts, WhatHasSettledOrOnlySwingsIsSteady) {
 
 TEST(Drifts, ASpeciesThatIsAbsentIsNotJudged) {
   EXPECT_EQ(judged([](double t) { return t > 35 ? std::nullopt : std::optional(0.05); }).size(), 1u);
-  EXPECT_TRUE(Drifts({"bed_height"}).judge().empty());
+  EXPECT_TRUE(drifts_of({}, {}).empty());
 }
 
 }  // namespace

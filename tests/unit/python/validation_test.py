@@ -112,9 +112,8 @@ class Numbers(unittest.TestCase):
         mean = {"how": "mean", "column": "bed_voidage"}
         found = given(mean, a_run({"steady": True}, **rows))
         self.assertAlmostEqual(found.value, 0.6, delta=1e-12)
-        drift = {"window_s": 1, "measures": [{"name": "bed_height", "rate_m_per_s": 1e-3, "error_m_per_s": 1e-4, "steady": False}]}
         with self.assertRaisesRegex(Undecided, "drift of bed_height") as raised:
-            given(mean, a_run({"steady": False}, drift, **rows))
+            given(mean, a_run({"steady": False}, {"lines": ["drift of bed_height"]}, **rows))
         self.assertAlmostEqual(raised.exception.number.value, 0.6, delta=1e-12)  # shown, and not judged
         with self.assertRaisesRegex(Undecided, "too few rows"):
             given(mean, a_run({"steady": None}, **rows))
