@@ -30,7 +30,6 @@ using Column = MeasuredColumn;
 /// The request: a run, or profiles without times.
 struct Asked : measures::StoredRun {
   std::optional<Profile> reference;
-  bool laid = false;  ///< on slabs that are asked for
 };
 
 // ---- reading
@@ -102,29 +101,6 @@ std::vector<std::string> read_species(const core::Json& value) {
   return names;
 }
 
-std::size_t count_of(const core::Json& value) {
-  constexpr double most = 1e6;
-  const double count = finite(value);
-  if (!(count >= 1 && count <= most) || count != std::floor(count))
-    throw core::FileError(fmt::format("{} is no number of slabs from 1 to {}", count, most));
-  return std::size_t(count);
-}
-
-/// Lays all on the slabs that are asked for.
-void lay(const core::Json& on, Asked& asked) {
-  constexpr double most_ratio = 1e9;
-  const double slab = of(on, "slab", thickness);
-  const std::size_t count = of(on, "count", count_of);
-  const auto lay_one = [&](Profile& profile) {
-    if (slab / profile.slab > most_ratio || profile.slab / slab > most_ratio)
-      throw core::FileError(fmt::format("slab: {} m is too far from the {} m of a profile", slab, profile.slab));
-    profile = measures::on_slabs(profile, slab, count);
-  };
-  for (measures::Bed& bed : asked.beds) lay_one(bed.profile);
-  if (asked.reference) lay_one(*asked.reference);
-  asked.laid = true;
-}
-
 void require_slabs_of_reference(const Asked& asked) {
   for (std::size_t n = 0; asked.reference && n < asked.beds.size(); ++n) {
     const Profile &profile = asked.beds[n].profile, &reference = *asked.reference;
@@ -144,7 +120,6 @@ Asked read_asked(const core::Json& value) {
         {naming(fmt::format("profiles[{}]", n), [&] { return read_profile(profiles[n], asked.species.size()); })});
   if (const core::Json* reference = member(value, "reference"))
     asked.reference = naming("reference", [&] { return read_profile(*reference, asked.species.size()); });
-  if (const core::Json* on = member(value, "on")) naming("on", [&] { lay(*on, asked); });
   require_slabs_of_reference(asked);
   return asked;
 }
@@ -239,14 +214,6 @@ core::Json json_of(const Values& values) {
   return json;
 }
 
-core::Json json_of(const std::vector<measures::Bed>& beds) {
-  core::Json json = core::Json::array();
-  for (const measures::Bed& bed : beds)
-    json.push_back(
-        {{"slab", bed.profile.slab}, {"fraction", bed.profile.fraction}, {"pressure", bed.profile.pressure}});
-  return json;
-}
-
 void print_json(const Asked& asked, const MeasureOptions& options) {
   const bool of_run = options.profiles.empty();
   core::Json json;
@@ -256,7 +223,6 @@ void print_json(const Asked& asked, const MeasureOptions& options) {
     of_beds[column.name] = {{"unit", column.unit}, {"help", column.help}, {"values", json_of(column.values)}};
   if (asked.reference) json["distances"] = core::Json::object();
   for (const Column& column : distances(asked)) json["distances"][column.name] = json_of(column.values);
-  if (asked.laid) json["profiles"] = json_of(asked.beds);
   if (of_run && options.beside.empty()) add_means(json, options, asked, nullptr);
   if (!options.beside.empty()) {
     const Asked beside = read_run(options.beside);

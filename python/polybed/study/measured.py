@@ -53,15 +53,10 @@ class Profile:
     """Lateral averages on slabs of one thickness from the bottom up."""
     slab: float  # m
     fraction: np.ndarray  # [species][slab]
-    pressure: list = field(default_factory=list)  # Pa; may be empty
 
     def plain(self):
         """As `polybed measure` reads it."""
-        return {"slab": self.slab, "fraction": np.asarray(self.fraction).tolist(), "pressure": list(self.pressure)}
-
-    @staticmethod
-    def of(plain):
-        return Profile(plain["slab"], np.array(plain["fraction"], float), plain["pressure"])
+        return {"slab": self.slab, "fraction": np.asarray(self.fraction).tolist()}
 
 
 def history_of(run):
@@ -146,17 +141,10 @@ def statistics_of(series=(), ratios=()):
     return json.loads(call("measure", "--series", "-", "--json", given=json.dumps(asked)))
 
 
-def measures_of(profiles, species, on=None, reference=None):
-    """What `polybed measure --profiles` says of profiles, as a dictionary: "measures" by name, each with its "values", and what was
-    asked for: "profiles" laid on other slabs, "distances" from the reference.
-
-    on: (thickness, m, and number) of slabs on which the profiles are laid first
-    """
-    if not profiles:
-        return {"measures": {}, "distances": {}, "profiles": []}
+def measures_of(profiles, species, reference=None):
+    """What `polybed measure --profiles` says of profiles, as a dictionary: "measures" by name, each with its "values", and "distances" from
+    the reference."""
     asked = {"species": list(species), "profiles": [profile.plain() for profile in profiles]}
-    if on:
-        asked["on"] = {"slab": on[0], "count": on[1]}
     if reference:
         asked["reference"] = reference.plain()
     return json.loads(call("measure", "--profiles", "-", "--json", given=json.dumps(asked)))
