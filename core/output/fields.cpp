@@ -244,21 +244,4 @@ void FieldWriter::write_file(const fs::path& path, double time_s, std::span<cons
   on_first(grid_.ranks.get(), [&] { put_in_place(temporary, path); });
 }
 
-FieldReader::FieldReader(fs::path run_directory)
-    : directory_(std::move(run_directory)),
-      index_(directory_ / "fields.h5", index_kind),
-      times_(index_.read("time_s").values) {}
-
-std::vector<double> FieldReader::faces(int axis) const {
-  return index_.read(std::string("grid/") + axis_names.at(std::size_t(axis))).values;
-}
-
-OutputFile FieldReader::open(std::size_t step) const {
-  return open_step(directory_, "fields", step, times_.size(), step_kind);
-}
-
-std::vector<std::string> FieldReader::names(std::size_t step) const { return open(step).names("step"); }
-
-DataSet FieldReader::field(std::size_t step, const std::string& name) const { return open(step).read("step/" + name); }
-
 }  // namespace polybed::core

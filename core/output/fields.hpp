@@ -53,25 +53,4 @@ class FieldWriter {
   std::vector<double> times_;
 };
 
-/// Reads fields.h5 back.
-class FieldReader {
- public:
-  explicit FieldReader(std::filesystem::path run_directory);
-  /// Time of each step, s, increasing.
-  [[nodiscard]] const std::vector<double>& times() const { return times_; }
-  /// Positions of the faces along an axis, m.
-  [[nodiscard]] std::vector<double> faces(int axis) const;
-  /// Names of the fields of a step, counted from 0.
-  [[nodiscard]] std::vector<std::string> names(std::size_t step) const;
-  /// A field of a step: [z][y][x] (2-D: [y][x]), a vector with its components behind.
-  [[nodiscard]] DataSet field(std::size_t step, const std::string& name) const;
-
- private:
-  [[nodiscard]] OutputFile open(std::size_t step) const;
-
-  std::filesystem::path directory_;
-  OutputFile index_;
-  std::vector<double> times_;
-};
-
 }  // namespace polybed::core

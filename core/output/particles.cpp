@@ -144,14 +144,6 @@ StepSeries particles_series(const ParticleScene& scene) {
           particles_xdmf};
 }
 
-std::vector<std::array<double, 3>> read_vectors(const OutputFile& file, const std::string& name) {
-  const DataSet data = file.read(name);
-  std::vector<std::array<double, 3>> values(data.values.size() / 3);
-  for (std::size_t i = 0; i < values.size(); ++i)
-    for (std::size_t a = 0; a < 3; ++a) values[i][a] = data.values[3 * i + a];
-  return values;
-}
-
 }  // namespace
 
 void require_finite(const char* quantity, std::int64_t id, const std::array<double, 3>& value, double time_s) {
@@ -198,24 +190,6 @@ void ParticleWriter::write_step(double time_s, const ParticleHead& head, std::ve
     put_in_place(fresh, path);
     steps_->add_written(time_s, head.id.size());
   });
-}
-
-ParticleReader::ParticleReader(fs::path run_directory) : directory_(std::move(run_directory)) {
-  const OutputFile index(directory_ / "particles.h5", particles_kind);
-  scene_ = read_scene(index);
-  times_ = index.read("time_s").values;
-}
-
-ParticleStep ParticleReader::step(std::size_t number) const {
-  const OutputFile file = open_step(directory_, "particles", number, times_.size(), particles_step_kind);
-  ParticleStep step;
-  step.id = file.read_integers("step/id");
-  for (std::int64_t species : file.read_integers("step/species")) step.species.push_back(std::int32_t(species));
-  step.radius = file.read("step/radius").values;
-  step.position = read_vectors(file, "step/position");
-  step.velocity = read_vectors(file, "step/velocity");
-  step.spin = read_vectors(file, "step/spin");
-  return step;
 }
 
 }  // namespace polybed::core

@@ -28,14 +28,6 @@ struct ParticleSnapshot {
   std::span<const std::array<double, 3>> spin;      ///< angular velocity, rad/s
 };
 
-/// The same, read back: it owns its numbers.
-struct ParticleStep {
-  std::vector<std::int64_t> id;
-  std::vector<std::int32_t> species;
-  std::vector<double> radius;
-  std::vector<std::array<double, 3>> position, velocity, spin;
-};
-
 /// What the particles are in, and what they are called.
 struct ParticleScene {
   std::array<double, 3> size{};      ///< of the column along x, y, z, m
@@ -79,22 +71,6 @@ class ParticleWriter {
   ParticleScene scene_;
   std::shared_ptr<const Ranks> ranks_;
   std::optional<StepWriter> steps_;  ///< on the first rank
-};
-
-/// Reads particles.h5 back.
-class ParticleReader {
- public:
-  explicit ParticleReader(std::filesystem::path run_directory);
-  /// Time of each step, s, increasing.
-  [[nodiscard]] const std::vector<double>& times() const { return times_; }
-  [[nodiscard]] const ParticleScene& scene() const { return scene_; }
-  /// The particles of a step, counted from 0.
-  [[nodiscard]] ParticleStep step(std::size_t number) const;
-
- private:
-  std::filesystem::path directory_;
-  ParticleScene scene_;
-  std::vector<double> times_;
 };
 
 }  // namespace polybed::core

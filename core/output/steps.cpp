@@ -94,12 +94,4 @@ void StepWriter::write_description() const {
   write_atomically(directory_ / (series_.name + ".xdmf"), series_.xdmf(stored_), Flush::nothing);
 }
 
-OutputFile open_step(const fs::path& run_directory, const std::string& name, std::size_t step, std::size_t steps,
-                     const FileKind& kind) {
-  if (step >= steps)
-    throw FileError(
-        fmt::format("{} has {} steps, none numbered {}", (run_directory / (name + ".h5")).string(), steps, step));
-  return OutputFile(step_path(run_directory, name, step), kind);
-}
-
 }  // namespace polybed::core

@@ -68,8 +68,4 @@ class StepWriter {
 [[nodiscard]] std::filesystem::path step_path(const std::filesystem::path& run_directory, const std::string& name,
                                               std::size_t step);
 
-/// The file of a step that a series holds; throws FileError if it has no such step.
-[[nodiscard]] OutputFile open_step(const std::filesystem::path& run_directory, const std::string& name,
-                                   std::size_t step, std::size_t steps, const FileKind& kind);
-
 }  // namespace polybed::core

@@ -12,6 +12,7 @@
 #include "core/numerics/ranks.hpp"
 #include "core/output/checkpoint.hpp"
 #include "core/output/fields.hpp"
+#include "scenes/stored_steps.hpp"
 #include "tests/unit/core/scratch.hpp"
 
 namespace polybed::core {

@@ -11,6 +11,7 @@
 
 #include "core/error.hpp"
 #include "core/output/rows.hpp"
+#include "scenes/stored_steps.hpp"
 #include "tests/unit/core/scratch.hpp"
 
 namespace polybed::core {
@@ -57,8 +58,8 @@ TEST(Fields, OwnedCellsComeBackInCOrder) {
     write_sample(writer, grid, 0.5);
     const FieldReader reader(scratch.path());
     EXPECT_THAT(reader.times(), ElementsAre(0.5));
-    EXPECT_EQ(reader.faces(1).size(), 5u);
-    EXPECT_DOUBLE_EQ(reader.faces(1).back(), 0.8);
+    EXPECT_EQ(reader.index().read("grid/y").values.size(), 5u);
+    EXPECT_DOUBLE_EQ(reader.index().read("grid/y").values.back(), 0.8);
     const DataSet scalar = reader.field(0, "voidage"), vector = reader.field(0, "u_fluid");
     if (dimensions == 2) {
       EXPECT_THAT(scalar.shape, ElementsAre(4, 3));

@@ -10,6 +10,7 @@
 
 #include "measures/bed.hpp"
 #include "scenes/snapshot_profile.hpp"
+#include "scenes/stored_steps.hpp"
 
 namespace polybed::measures {
 namespace {

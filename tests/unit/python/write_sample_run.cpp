@@ -9,6 +9,7 @@
 #include "core/output/files.hpp"
 #include "core/output/output.hpp"
 #include "scenes/snapshot_profile.hpp"
+#include "scenes/stored_steps.hpp"
 
 namespace {
 
