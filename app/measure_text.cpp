@@ -83,9 +83,8 @@ struct Series {
 };
 
 Series series_of(const MeasuredColumn& column, const measures::StoredRun& run) {
-  const core::History& history = run.history;
-  const auto found = std::find(history.columns.begin(), history.columns.end(), column.heading);
-  if (found != history.columns.end()) return {history.values.front(), history.of(column.heading)};
+  if (const std::vector<double>* values = run.history.find(column.heading))
+    return {run.history.values.front(), *values};
   Series series{run.time, {}};
   for (const measures::Value& value : column.values)
     series.value.push_back(value.value_or(std::numeric_limits<double>::quiet_NaN()));
@@ -125,8 +124,7 @@ void print_summary(const measures::StoredRun& run, const std::vector<MeasuredCol
     if (std::none_of(column.values.begin(), column.values.end(), has_value)) continue;
     const auto [scale, unit] = shown_unit(column);
     const Series series = series_of(column, run);
-    const measures::Rows rows = window.rows(series.time);
-    const auto mean = measures::time_mean(std::span(series.value).subspan(rows.begin, rows.count()));
+    const auto mean = measures::time_mean(window.rows(series.time).of(series.value));
     const bool ends = !series.value.empty() && std::isfinite(series.value.back());
     core::print("{:24} {:>20} {:>12}  {}\n", in_words(column.name), mean ? mean_text(*mean, scale, "") : "-",
                 ends ? fmt::format("{:.4g}", scale * series.value.back()) : "-", unit);

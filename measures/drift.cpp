@@ -65,8 +65,7 @@ std::vector<DriftOfMeasure> drifts_of(std::span<const double> time,
   if (time.empty()) return found;
   const Rows rows = last_quarter(time).rows(time);
   for (const auto& [name, values] : heights) {
-    const auto in_window = std::span(values).subspan(rows.begin, rows.count());
-    const auto drift = drift_of(time.subspan(rows.begin, rows.count()), in_window);
+    const auto drift = drift_of(rows.of(time), rows.of(values));
     if (!drift || !std::isfinite(drift->rate)) continue;
     const double until_doubled = std::abs(drift->rate) * (time.back() - time.front());
     const bool steady = std::abs(drift->rate) <= drift->error || until_doubled <= matters * heights[0].second.back();

@@ -50,6 +50,7 @@ struct TimeMean {
 struct Rows {
   std::size_t begin = 0, end = 0;
   [[nodiscard]] std::size_t count() const { return end - begin; }
+  [[nodiscard]] std::span<const double> of(std::span<const double> all) const { return all.subspan(begin, count()); }
 };
 
 /// At most ten groups of successive rows, to be left out in turn; none of fewer than four rows.

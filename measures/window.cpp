@@ -16,12 +16,6 @@ using Series = std::vector<double>;
 
 // ---- rows of a history
 
-/// A column, or null.
-const Series* column(const core::History& history, const std::string& name) {
-  const auto found = std::find(history.columns.begin(), history.columns.end(), name);
-  return found == history.columns.end() ? nullptr : &history.values[std::size_t(found - history.columns.begin())];
-}
-
 double ratio(double above, double below) {
   return below != 0 ? above / below : std::numeric_limits<double>::quiet_NaN();
 }
@@ -29,24 +23,19 @@ double ratio(double above, double below) {
 /// Centre of species 2 less that of species 1, over the bed height.
 Series centre_difference(const StoredRun& run) {
   if (run.species.size() < 2) return {};
-  const Series *low = column(run.history, "centre_" + run.species[0] + "_m"),
-               *high = column(run.history, "centre_" + run.species[1] + "_m"),
-               *height = column(run.history, "bed_height_m");
+  const Series *low = run.history.find("centre_" + run.species[0] + "_m"),
+               *high = run.history.find("centre_" + run.species[1] + "_m"), *height = run.history.find("bed_height_m");
   Series found;
   for (std::size_t n = 0; low != nullptr && high != nullptr && height != nullptr && n < height->size(); ++n)
     found.push_back(ratio((*high)[n] - (*low)[n], (*height)[n]));
   return found;
 }
 
-std::span<const double> part_of(const Series& values, const Rows& rows) {
-  return std::span(values).subspan(rows.begin, rows.count());
-}
-
 /// Where the marginal standard error rule has the window begin for a series, s.
 double begin_by_rule(const Series& time, const Series& values, const Window& window) {
   if (values.empty()) return window.begin;
   const Rows rows = window.rows(time);
-  const std::size_t drop = rows_to_drop(part_of(values, rows));
+  const std::size_t drop = rows_to_drop(rows.of(values));
   return drop > 0 ? time[rows.begin + drop] : window.begin;
 }
 
@@ -132,7 +121,7 @@ Value joint_interval(const std::vector<Value>& one, const std::vector<Value>& ot
 }  // namespace
 
 std::vector<double> drop_over_weight(const core::History& history) {
-  const Series *drop = column(history, "pressure_drop_Pa"), *weight = column(history, "buoyant_weight_Pa");
+  const Series *drop = history.find("pressure_drop_Pa"), *weight = history.find("buoyant_weight_Pa");
   Series found;
   for (std::size_t n = 0; drop != nullptr && weight != nullptr && n < drop->size(); ++n)
     found.push_back(ratio((*drop)[n], (*weight)[n]));
@@ -185,7 +174,7 @@ InWindow in_window(const StoredRun& run, const Window& window, std::size_t slabs
   if (found.rows > 1) found.step = (time[rows.end - 1] - time[rows.begin]) / double(found.rows - 1);
   for (const auto& [name, values] : series_of(run))
     if (!values.empty())
-      if (const auto mean = time_mean(part_of(values, rows))) found.means[name] = *mean;
+      if (const auto mean = time_mean(rows.of(values))) found.means[name] = *mean;
   const Rows profiles = window.rows(run.time);
   found.profiles = profiles.count();
   if (run.beds.empty()) return found;

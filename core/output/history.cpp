@@ -40,10 +40,15 @@ void HistoryWriter::write_row(std::span<const std::optional<double>> row) {
 
 void HistoryWriter::flush() { file_.flush(); }
 
-const std::vector<double>& History::of(const std::string& column) const {
+const std::vector<double>* History::find(const std::string& column) const {
   const auto found = std::find(columns.begin(), columns.end(), column);
-  if (found == columns.end()) throw FileError("history.csv has no column " + column);
-  return values[std::size_t(found - columns.begin())];
+  return found == columns.end() ? nullptr : &values[std::size_t(found - columns.begin())];
+}
+
+const std::vector<double>& History::of(const std::string& column) const {
+  const std::vector<double>* found = find(column);
+  if (found == nullptr) throw FileError("history.csv has no column " + column);
+  return *found;
 }
 
 History read_history(const fs::path& run_directory) {

@@ -36,7 +36,9 @@ struct History {
   std::vector<std::string> columns;
   std::vector<std::vector<double>> values;  ///< [column][row]
 
-  /// A column by name; throws FileError if there is none.
+  /// A column by name, or null.
+  [[nodiscard]] const std::vector<double>* find(const std::string& column) const;
+  /// The same; throws FileError if there is none.
   [[nodiscard]] const std::vector<double>& of(const std::string& column) const;
 };
 

@@ -12,12 +12,6 @@ namespace {
 using measures::TimeMean;
 using Series = std::vector<double>;
 
-/// A column, or null.
-const Series* column(const core::History& history, const std::string& name) {
-  const auto found = std::find(history.columns.begin(), history.columns.end(), name);
-  return found == history.columns.end() ? nullptr : &history.values[std::size_t(found - history.columns.begin())];
-}
-
 /// The rows of a run from which means are taken.
 struct Window {
   const core::History& history;
@@ -25,10 +19,10 @@ struct Window {
   measures::Rows rows;
 
   [[nodiscard]] std::optional<TimeMean> mean(const Series& all) const {
-    return all.empty() ? std::nullopt : measures::time_mean(std::span(all).subspan(rows.begin, rows.count()));
+    return all.empty() ? std::nullopt : measures::time_mean(rows.of(all));
   }
   [[nodiscard]] std::optional<TimeMean> mean(const std::string& name) const {
-    const Series* all = column(history, name);
+    const Series* all = history.find(name);
     return all == nullptr ? std::nullopt : mean(*all);
   }
 };
@@ -52,7 +46,7 @@ Inventory inventory_of(const core::Scene& scene, const Window& window) {
   for (const core::Species& species : scene.species) {
     const std::optional<TimeMean> centre = window.mean("centre_" + species.name + "_m");
     all.centre.push_back(centre);
-    const Series* mass = column(window.history, "mass_" + species.name + "_kg");
+    const Series* mass = window.history.find("mass_" + species.name + "_kg");
     if (mass == nullptr) continue;
     all.first += mass->front();
     all.particles += particles_of(species, mass->front());
@@ -65,7 +59,7 @@ Inventory inventory_of(const core::Scene& scene, const Window& window) {
 
 /// Whether the solids are lighter than the fluid.
 bool is_light(const Window& window) {
-  const Series* weight = column(window.history, "buoyant_weight_Pa");
+  const Series* weight = window.history.find("buoyant_weight_Pa");
   return weight != nullptr && last(*weight) < 0;
 }
 
@@ -108,9 +102,9 @@ std::string layers_of(const core::Scene& scene, const Inventory& all, const BedO
 /// What has left, and as a share of what could have.
 void find_outflow(const core::Scene& scene, const Window& window, BedOfRun& bed) {
   for (const core::Species& species : scene.species) {
-    const Series *out = column(window.history, "out_" + species.name + "_kg"),
-                 *fed = column(window.history, "in_" + species.name + "_kg"),
-                 *mass = column(window.history, "mass_" + species.name + "_kg");
+    const Series *out = window.history.find("out_" + species.name + "_kg"),
+                 *fed = window.history.find("in_" + species.name + "_kg"),
+                 *mass = window.history.find("mass_" + species.name + "_kg");
     if (out == nullptr || mass == nullptr) continue;
     const double supplied = mass->front() + (fed != nullptr ? last(*fed) : 0);
     bed.out[species.name] = last(*out);
@@ -125,7 +119,7 @@ void find_discharge(const core::Scene& scene, const Window& window, const Invent
   Series out(window.time.size(), 0);
   double number = 0;
   for (const core::Species& species : scene.species)
-    if (const Series* one = column(window.history, "out_" + species.name + "_kg")) {
+    if (const Series* one = window.history.find("out_" + species.name + "_kg")) {
       for (std::size_t n = 0; n < out.size(); ++n) out[n] += (*one)[n];
       number += particles_of(species, one->back());
     }
@@ -146,7 +140,7 @@ void find_discharge(const core::Scene& scene, const Window& window, const Invent
 void judge_drift(const core::Scene& scene, const Window& window, BedOfRun& bed) {
   std::vector<std::pair<std::string, Series>> heights;
   const auto add = [&](const std::string& name) {
-    if (const Series* all = column(window.history, name + "_m")) heights.emplace_back(name, *all);
+    if (const Series* all = window.history.find(name + "_m")) heights.emplace_back(name, *all);
   };
   add("bed_height");
   for (const core::Species& species : scene.species) add("centre_" + species.name);
@@ -158,7 +152,7 @@ void judge_drift(const core::Scene& scene, const Window& window, BedOfRun& bed) 
 
 BedOfRun bed_of_run(const core::Scene& scene, const core::History& history) {
   BedOfRun bed;
-  const Series* time = column(history, "time_s");
+  const Series* time = history.find("time_s");
   if (time == nullptr || time->empty()) return bed;
   const measures::Window quarter = measures::last_quarter(*time);
   bed.window = quarter.end - quarter.begin;

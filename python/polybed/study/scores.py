@@ -77,61 +77,21 @@ def on_top(centres):
     return OnTop(name, bool(known and first.mean - second.mean > math.hypot(first.error, second.error)))
 
 
-class Comparer:
-    """Makes a comparison piece by piece."""
+def warnings_of(run, means):
+    """What makes the means of a run less than they seem: a window too short. means: by name"""
+    times = {name: mean.correlation for name, mean in means.items() if mean and mean.error is not None}
+    slowest = max(times, key=times.get, default=None)
+    warnings = []
+    if run.rows < ENOUGH_ROWS:
+        warnings.append(f"{run.rows} rows of its history in the window: intervals need {ENOUGH_ROWS}; a smaller output.history_every gives more")
+    if slowest and run.rows < ENOUGH * times[slowest]:
+        least = WINDOW_PARTS * ENOUGH * times[slowest] * run.step
+        warnings.append(f"window too short for {measure_words(slowest)}: run at least {least:.3g} s")
+    return warnings
 
-    def __init__(self, tfm, dem):
-        window, runs, self.distances = means_of(tfm.directory, beside=dem.directory)
-        self.sides, self.drifts = dict(zip(MODELS, runs)), {"tfm": tfm.drifts, "dem": dem.drifts}
-        self.found = Comparison(window, list(runs[0].fraction), runs[0].height, {m: s.profiles for m, s in self.sides.items()},
-                                {m: s.fraction for m, s in self.sides.items()})
 
-    def make(self):
-        self.measure()
-        self.score()
-        species, measures = self.found.species, self.found.measures
-        self.found.top = {model: on_top({name: getattr(measures[centre_column(name)], model) for name in species}) for model in MODELS}
-        for model in MODELS:
-            self.warn_of(model)
-        if not all(self.found.profiles.values()):
-            self.found.warnings.append("no stored profile of both runs in the window: a smaller output.every stores more")
-        return self.found
-
-    def measure(self):
-        several = len(self.found.species) > 1
-        names = ["bed_height_m", "pressure_drop_Pa", "pressure_drop_over_weight", *map(centre_column, self.found.species),
-                 *(["centre_difference", "mixing"] if several else [])]
-        self.found.measures = {name: Measure(*(side.means.get(name) for side in self.sides.values())) for name in names}
-        if several:
-            self.found.measures["interface_m"] = Measure(*(side.of_profile.get("interface_m") for side in self.sides.values()))
-
-    def distance(self, name, goal=None):
-        found = self.distances.get(name)
-        return Score(found.mean, found.error, goal) if found else Score(goal=goal)
-
-    def score(self):
-        measures, scores = self.found.measures, self.found.scores
-        scores["e_H"] = height_score(measures["bed_height_m"])
-        if len(self.found.species) > 1:
-            b = measures["centre_difference"]
-            scores["e_b"] = Score(b.difference, b.difference_error, GOAL)
-            scores["D1"] = self.distance("composition", GOAL)
-        for name in self.found.species:
-            scores[f"profile_{name}"] = self.distance(f"profile_{name}")
-
-    def warn_of(self, model):
-        """What makes a mean of a run less than it seems: a window too short, a run that still drifts."""
-        side, warnings = self.sides[model], []
-        if side.rows < ENOUGH_ROWS:
-            warnings.append(f"{side.rows} rows of its history in the window: intervals need {ENOUGH_ROWS}; a smaller output.history_every "
-                            "gives more")
-        means = {name: getattr(measure, model) for name, measure in self.found.measures.items()}
-        times = {name: mean.correlation for name, mean in means.items() if mean and mean.error is not None}
-        slowest = max(times, key=times.get, default=None)
-        if slowest and side.rows < ENOUGH * times[slowest]:
-            least = WINDOW_PARTS * ENOUGH * times[slowest] * side.step
-            warnings.append(f"window too short for {measure_words(slowest)}: run at least {least:.3g} s")
-        self.found.warnings += [f"{model}: {line}" for line in (*warnings, *self.drifts[model])]
+def distance_score(found, goal=None):
+    return Score(found.mean, found.error, goal) if found else Score(goal=goal)
 
 
 def height_score(height):
@@ -147,7 +107,26 @@ def height_score(height):
 
 def compare(tfm, dem):
     """Measures and scores of two runs of one case, both Measured. Raises ProgramError if their species or slabs are not the same."""
-    return Comparer(tfm, dem).make()
+    window, runs, distances = means_of(tfm.directory, beside=dem.directory)
+    species, several = list(runs[0].fraction), len(runs[0].fraction) > 1
+    names = ["bed_height_m", "pressure_drop_Pa", "pressure_drop_over_weight", *map(centre_column, species),
+             *(["centre_difference", "mixing"] if several else [])]
+    measures = {name: Measure(*(run.means.get(name) for run in runs)) for name in names}
+    scores = {"e_H": height_score(measures["bed_height_m"])}
+    if several:
+        measures["interface_m"] = Measure(*(run.of_profile.get("interface_m") for run in runs))
+        b = measures["centre_difference"]
+        scores |= {"e_b": Score(b.difference, b.difference_error, GOAL), "D1": distance_score(distances.get("composition"), GOAL)}
+    scores |= {f"profile_{name}": distance_score(distances.get(f"profile_{name}")) for name in species}
+    found = Comparison(window, species, runs[0].height, {}, {}, measures, scores)
+    for model, run, drifts in zip(MODELS, runs, (tfm.drifts, dem.drifts)):
+        means = {name: getattr(measure, model) for name, measure in measures.items()}
+        found.profiles[model], found.fraction[model] = run.profiles, run.fraction
+        found.top[model] = on_top({name: means[centre_column(name)] for name in species})
+        found.warnings += [f"{model}: {line}" for line in (*warnings_of(run, means), *drifts)]
+    if not all(found.profiles.values()):
+        found.warnings.append("no stored profile of both runs in the window: a smaller output.every stores more")
+    return found
 
 
 def add_inversion(comparison, scan, path, velocity):
