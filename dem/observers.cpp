@@ -68,8 +68,11 @@ Greatest greatest_of(const Model& model) {
   for (const Species& s : model.materials().species())
     volume.push_back(measures::sphere_volume_below(s.radius, 0, s.radius));
   Greatest most;
+  const double image_speed = std::abs(model.box().image_speed());
   for (std::size_t i = 0; i < particles.owned; ++i) {
-    most.of.add(volume[std::size_t(particles.species[i])], particles.motion[i].v);
+    Vector v = particles.motion[i].v;
+    v[0] = std::abs(v[0]) + image_speed;  // of the faster image
+    most.of.add(volume[std::size_t(particles.species[i])], v);
     most.height = std::max(most.height, std::abs(particles.place[i].x[1]));
   }
   most.of.particles = model.particle_count();
@@ -140,7 +143,8 @@ measures::ParticleProfile profile_of(const Model& model, const measures::Slabs& 
 Observers::Observers(const Model& model, const core::Scene& scene, const std::filesystem::path& directory,
                      std::optional<RunStart> start, const FluidTotals& fluid, std::optional<double> resume_time)
     : model_(model),
-      slabs_{scene.column.cross_section(), model.box().size[1], std::size_t(scene.column.cells[1])},
+      slabs_{scene.column.cross_section(), model.box().size[1], std::size_t(scene.column.cells[1]),
+             model.box().periodic[1], model.box().image_speed()},
       history_(measures::bed_table(), history_table(parts_of(model, scene.dem.ledger)), names_of(model)),
       particles_(directory, {model.box().size, model.box().periodic, names_of(model)}, resume_time, model.share()),
       totals_(totals_of(model)),

@@ -33,16 +33,26 @@ void ParticleExtremes::add(double volume_of_one, const std::array<double, 3>& u)
 }
 
 ParticleAdder::ParticleAdder(std::size_t species, const Slabs& slabs, const ParticleExtremes& all)
-    : slabs_(slabs.count), thickness_(slabs.thickness()) {
+    : slabs_(slabs), thickness_(slabs.thickness()) {
   const double momentum = unit_for(all.particles, all.momentum);
   sums_.unit = {unit_for(all.particles, all.volume), momentum, momentum, momentum, unit_for(all.particles, all.energy)};
   for (std::size_t q = 0; q < per_unit_.size(); ++q) per_unit_[q] = 1 / sums_.unit[q];
   sums_.sum.assign(species * ParticleSums::quantities * slabs.count, 0);
 }
 
-/// Heights beyond the ends belong to the outermost ones.
-std::size_t ParticleAdder::slab_at(double height) const {
-  return std::size_t(std::clamp(std::floor(height / thickness_), 0.0, double(slabs_ - 1)));
+ParticleAdder::Reach ParticleAdder::reach_of(double radius, double centre) const {
+  const auto count = std::int64_t(slabs_.count);
+  std::int64_t least = -count, most = 2 * count - 1;  // one column down and up
+  if (!slabs_.joined) {
+    const bool inside = centre >= 0 && centre <= slabs_.height;
+    least = inside ? 0 : -1;  // all that lies beyond an end is one slab
+    most = inside ? count - 1 : count;
+    if (inside && 2 * radius <= slabs_.height) centre = std::clamp(centre, radius, slabs_.height - radius);
+  }
+  const auto slab_at = [&](double height) {
+    return std::int64_t(std::clamp(std::floor(height / thickness_), double(least), double(most)));
+  };
+  return {centre, slab_at(centre - radius), slab_at(centre + radius)};
 }
 
 void ParticleAdder::add(std::size_t species, double radius, double centre, const std::array<double, 3>& u) {
@@ -50,21 +60,26 @@ void ParticleAdder::add(std::size_t species, double radius, double centre, const
     radius_ = radius;
     whole_ = std::llrint(volume_of(radius) * per_unit_[0]);
   }
-  std::int64_t* sum = &sums_.sum[species * ParticleSums::quantities * slabs_];
-  const double square = speed_squared(u);
-  const std::size_t last = slab_at(centre + radius);
+  const auto count = std::int64_t(slabs_.count);
+  std::int64_t* sum = &sums_.sum[species * ParticleSums::quantities * slabs_.count];
+  const Reach reach = reach_of(radius, centre);
   std::int64_t below = 0;
-  for (std::size_t k = slab_at(centre - radius); k <= last; ++k) {
-    const double plane = double(k + 1) * thickness_;
+  for (std::int64_t n = reach.first; n <= reach.last; ++n) {
+    const double plane = double(n + 1) * thickness_;
     // Of rounded caps: the parts add up to the rounded sphere.
     const std::int64_t up_to_here =
-        k == last ? whole_ : std::llrint(sphere_volume_below(radius, centre, plane) * per_unit_[0]);
+        n == reach.last ? whole_ : std::llrint(sphere_volume_below(radius, reach.centre, plane) * per_unit_[0]);
     const std::int64_t part = up_to_here - below;
     below = up_to_here;
+    const int columns_up = n < 0 ? -1 : (n < count ? 0 : 1);
+    if (columns_up != 0 && !slabs_.joined) continue;
+    const auto k = std::size_t(n - columns_up * count);
+    const std::array<double, 3> seen{u[0] - columns_up * slabs_.image_speed, u[1], u[2]};
     const double volume = double(part) * sums_.unit[0];
     sum[k] += part;
-    for (std::size_t a = 0; a < 3; ++a) sum[(a + 1) * slabs_ + k] += std::llrint(volume * u[a] * per_unit_[a + 1]);
-    sum[4 * slabs_ + k] += std::llrint(volume * square * per_unit_[4]);
+    for (std::size_t a = 0; a < 3; ++a)
+      sum[(a + 1) * slabs_.count + k] += std::llrint(volume * seen[a] * per_unit_[a + 1]);
+    sum[4 * slabs_.count + k] += std::llrint(volume * speed_squared(seen) * per_unit_[4]);
   }
 }
 

@@ -25,10 +25,13 @@ struct Slabs {
   double area = 0;    ///< of the column's cross-section, m2
   double height = 0;  ///< of the column, m
   std::size_t count = 0;
+  bool joined = false;     ///< what lies beyond one end of the column is at the other
+  double image_speed = 0;  ///< along x, of the image of a particle one column up: of a sheared box, m/s
   [[nodiscard]] double thickness() const { return height / double(count); }
 };
 
-/// What fixes the units of the sums: over ranks, `particles` is added up and of the others the greatest is taken.
+/// What fixes the units of the sums: over ranks, `particles` is added up and of the others the greatest is taken. In a
+/// sheared box the images count, too.
 struct ParticleExtremes {
   std::int64_t particles = 0;
   double volume = 0;    ///< V, m3
@@ -45,8 +48,10 @@ struct ParticleSums {
   std::vector<std::int64_t> sum;  ///< [species][quantity][slab]; over ranks, to be added up
 };
 
-/// Makes them, particle by particle. What of a particle lies beyond the ends of the column, as where it is pressed into
-/// the bottom, counts for the outermost slab: a species' sum of V is that of its particles, each rounded to a unit.
+/// Makes them, particle by particle. A particle that is pressed into an end of the column counts where it would touch
+/// it: a species' sum of V is that of its particles, each rounded to a unit. Only of one whose centre has left the
+/// column, through an opening, the part that is still inside counts. Through joined ends a particle goes on at the
+/// other one, in a sheared box with its image's velocity.
 class ParticleAdder {
  public:
   /// \param all  of the particles on all ranks
@@ -56,9 +61,14 @@ class ParticleAdder {
   [[nodiscard]] ParticleSums take() { return std::move(sums_); }
 
  private:
-  [[nodiscard]] std::size_t slab_at(double height) const;
+  /// Slabs that a particle reaches into, counted on beyond the ends.
+  struct Reach {
+    double centre;  ///< m
+    std::int64_t first, last;
+  };
+  [[nodiscard]] Reach reach_of(double radius, double centre) const;
 
-  std::size_t slabs_;
+  Slabs slabs_;
   double thickness_;                                       ///< m
   std::array<double, ParticleSums::quantities> per_unit_;  ///< one over the units
   ParticleSums sums_;

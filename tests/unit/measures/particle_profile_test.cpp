@@ -102,13 +102,68 @@ TEST(ParticleProfile, MeansAreWeightedByVolume) {
   EXPECT_EQ(profile.temperature[2][0], 0);
 }
 
-TEST(ParticleProfile, WhatLiesBeyondTheEndsCountsForTheOutermostSlabs) {
+/// Solids volume of a species in all slabs, m3.
+double volume_in(const ParticleProfile& profile, const Slabs& slabs, std::size_t species = 0) {
+  const std::vector<double>& phi = profile.solids.fraction[species];
+  return std::accumulate(phi.begin(), phi.end(), 0.0) * slabs.area * slabs.thickness();
+}
+
+TEST(ParticleProfile, APressedParticleCountsWhereItWouldTouchTheEnd) {
+  Bed pressed, touching;
+  pressed.add(0, 1, {0, 0.9, 0});
+  pressed.add(0, 1, {0, 10, 0});
+  touching.add(0, 1, {0, 1, 0});
+  touching.add(0, 1, {0, 9, 0});
+  for (std::size_t count : {std::size_t(5), std::size_t(1000)}) {
+    const Slabs slabs{4, 10, count};
+    const ParticleProfile profile = particle_profile(pressed.view(), 1, slabs);
+    EXPECT_EQ(profile.solids.fraction, particle_profile(touching.view(), 1, slabs).solids.fraction);
+    EXPECT_NEAR(volume_in(profile, slabs) / (8 * pi / 3), 1, 10 * rounding);
+    const auto& phi = profile.solids.fraction[0];
+    EXPECT_LE(*std::max_element(phi.begin(), phi.end()), pi / 4);  // of the square around a sphere its middle fills
+  }
+}
+
+// Through an opening: one that is half below a cap h = 0.5, pi h^2 (3 - h)/3 = 5 pi/24, and one that has left.
+TEST(ParticleProfile, WhatHasLeftThroughAnOpeningDoesNotCount) {
   Bed bed;
-  bed.add(0, 1, {0, 0.9, 0});  // pressed into the bottom
-  bed.add(0, 1, {0, 10, 0});   // half out at the top
-  const ParticleProfile profile = particle_profile(bed.view(), 1, {1, 10, 5});
-  EXPECT_NEAR(profile.solids.fraction[0][0] * 2, 4 * pi / 3, 10 * rounding);
-  EXPECT_NEAR(profile.solids.fraction[0][4] * 2, 4 * pi / 3, 10 * rounding);
+  bed.add(0, 1, {0, -0.5, 0});
+  bed.add(0, 1, {0, -3, 0});
+  const Slabs slabs{4, 10, 1000};
+  const ParticleProfile profile = particle_profile(bed.view(), 1, slabs);
+  EXPECT_NEAR(volume_in(profile, slabs) / (5 * pi / 24), 1, 10 * rounding);
+  EXPECT_NEAR(profile.solids.fraction[0][0] / (pi * (0.01 - (0.51 * 0.51 * 0.51 - 0.125) / 3) / 0.04), 1, 1e-12);
+}
+
+// Spheres of radius 1 that touch in squares of 2 x 2, layers 2 apart, moved by a height: in slabs much thinner than a
+// sphere every layer is the same, those through both ends too.
+TEST(ParticleProfile, GoesOnThroughJoinedEnds) {
+  constexpr std::size_t in_a_layer = 50;
+  const Slabs slabs{4, 10, 5 * in_a_layer, true};
+  for (const double moved : {0.0, 0.3, 1.0, 1.7}) {
+    Bed bed;
+    for (int n = 0; n < 5; ++n) bed.add(0, 1, {0, 2 * n + moved, 0});
+    const ParticleProfile profile = particle_profile(bed.view(), 1, slabs);
+    EXPECT_NEAR(volume_in(profile, slabs) / (20 * pi / 3), 1, 10 * rounding);
+    const auto& phi = profile.solids.fraction[0];
+    for (std::size_t k = 0; k < slabs.count; ++k) EXPECT_NEAR(phi[k], phi[k % in_a_layer], 100 * rounding) << moved;
+    EXPECT_NEAR(*std::max_element(phi.begin(), phi.end()), pi / 4, 1e-3);
+  }
+}
+
+// The box's flow takes a particle through its top to the speed of the particles at its bottom: no slab is agitated.
+TEST(ParticleProfile, OfAShearedBoxHasTheVelocityOfTheImages) {
+  const Slabs slabs{4, 10, 10, true, 6};
+  Bed bed;
+  bed.add(0, 1, {0, 9.75, 0}, {3, 0, 0});
+  bed.add(0, 1, {0, 0.25, 0}, {-3, 0, 0});
+  ParticleExtremes most = extremes_of(bed.view());
+  most.momentum *= 3;  // an image moves at 9 m/s
+  most.energy *= 9;
+  const ParticleProfile profile = particle_profile(particle_sums(bed.view(), 1, slabs, most), 1, slabs);
+  for (std::size_t k = 0; k < slabs.count; ++k) EXPECT_NEAR(profile.temperature[0][k], 0, 100 * rounding) << k;
+  EXPECT_GT(profile.solids.fraction[0][0], 0);
+  EXPECT_NEAR(volume_in(profile, slabs) / (8 * pi / 3), 1, 10 * rounding);
 }
 
 TEST(ParticleProfile, HasTheVolumeOfItsParticles) {
