@@ -60,6 +60,10 @@ struct OutputFile::State {
     file = checked("the file", [&] { return H5Fopen(name.c_str(), H5F_ACC_RDWR, access); });
   }
 
+  /// A name for messages.
+  [[nodiscard]] std::string label(const std::string& name) const {
+    return path.empty() ? name : fmt::format("{} of {}", name, path);
+  }
   [[nodiscard]] bool has(const std::string& name) const { return exists(file, name, path); }
   /// The name of an object, which need not be there yet, of this very file; throws FileError for one elsewhere.
   [[nodiscard]] const char* own(const std::string& name) const {
@@ -67,10 +71,10 @@ struct OutputFile::State {
     return name.c_str();
   }
   [[nodiscard]] Handle object(const std::string& name) const {
-    return Handle(name, [&] { return H5Oopen(file, own(name), H5P_DEFAULT); });
+    return Handle(label(name), [&] { return H5Oopen(file, own(name), H5P_DEFAULT); });
   }
   [[nodiscard]] Handle dataset(const std::string& name) const {
-    Handle data(name, [&] { return H5Dopen2(file, own(name), H5P_DEFAULT); });
+    Handle data(label(name), [&] { return H5Dopen2(file, own(name), H5P_DEFAULT); });
     require_own_numbers(data, name, path);
     return data;
   }
@@ -127,7 +131,6 @@ OutputFile::OutputFile(const std::filesystem::path& path, const FileKind& kind)
 OutputFile::OutputFile(std::span<const std::byte> bytes, const std::filesystem::path& path, const FileKind& kind)
     : OutputFile() {
   if (bytes.empty()) throw FileError(fmt::format("{} is empty", path.string()));
-  state_->path = path.string();
   readable(path, [&] { state_->open(bytes); });
   check_kind(path, kind);
 }
@@ -135,7 +138,6 @@ OutputFile::OutputFile(std::span<const std::byte> bytes, const std::filesystem::
 OutputFile OutputFile::on_disk(const std::filesystem::path& path, const FileKind& kind) {
   (void)bytes_of_file(path);
   OutputFile file;
-  file.state_->path = path.string();
   require_room_for_a_file();
   readable(path, [&] {
     file.state_->file = checked("the file", [&] { return H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT); });
@@ -146,7 +148,8 @@ OutputFile OutputFile::on_disk(const std::filesystem::path& path, const FileKind
 
 OutputFile::OutputFile() : state_(std::make_unique<State>()) {}
 
-void OutputFile::check_kind(const std::filesystem::path& path, const FileKind& kind) const {
+/// From here on messages name the file.
+void OutputFile::check_kind(const std::filesystem::path& path, const FileKind& kind) {
   std::string filetype;
   double version = 0;
   readable(path, [&] {
@@ -156,6 +159,7 @@ void OutputFile::check_kind(const std::filesystem::path& path, const FileKind& k
   if (filetype != kind.filetype || version != kind.version)
     throw FileError(fmt::format("{} is '{}' version {}; this program reads '{}' version {}", path.string(), filetype,
                                 version, kind.filetype, kind.version));
+  state_->path = path.string();
 }
 
 OutputFile::~OutputFile() = default;
@@ -233,8 +237,8 @@ void OutputFile::link(const std::string& name, const std::string& file, const st
 }
 
 void OutputFile::remove(const std::string& name) {
-  if (!has(name)) throw FileError(name + " is missing");
-  checked(name, [&] { return H5Ldelete(state_->file, name.c_str(), H5P_DEFAULT); });
+  if (!has(name)) throw FileError(state_->label(name) + " is missing");
+  checked(state_->label(name), [&] { return H5Ldelete(state_->file, name.c_str(), H5P_DEFAULT); });
 }
 
 void OutputFile::make_rows(const std::string& name, std::size_t columns) {
@@ -253,27 +257,27 @@ void OutputFile::make_rows(const std::string& name, std::size_t columns) {
 }
 
 void OutputFile::append_row(const std::string& name, std::span<const double> row) {
+  const std::string label = state_->label(name);
   const Handle data = state_->dataset(name);
-  const std::vector<std::size_t> shape = shape_of(data, name);
+  const std::vector<std::size_t> shape = shape_of(data, label);
   std::vector<hsize_t> dims(shape.begin(), shape.end()), start(shape.size(), 0), count = dims;
   start[0] = dims[0]++;
   count[0] = 1;
   if (row.size() != (count.size() > 1 ? count[1] : 1))
-    throw FileError(fmt::format("{}: a row of {} numbers does not fit", name, row.size()));
-  checked(name, [&] { return H5Dset_extent(data, dims.data()); });
-  const Handle place(name, [&] { return H5Dget_space(data); });
-  checked(name,
+    throw FileError(fmt::format("{}: a row of {} numbers does not fit", label, row.size()));
+  checked(label, [&] { return H5Dset_extent(data, dims.data()); });
+  const Handle place(label, [&] { return H5Dget_space(data); });
+  checked(label,
           [&] { return H5Sselect_hyperslab(place, H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr); });
   const Handle source = simple_space({row.size()});
-  checked(name, [&] { return H5Dwrite(data, H5T_NATIVE_DOUBLE, source, place, H5P_DEFAULT, row.data()); });
+  checked(label, [&] { return H5Dwrite(data, H5T_NATIVE_DOUBLE, source, place, H5P_DEFAULT, row.data()); });
 }
 
-void OutputFile::keep_rows(const std::string& name, std::size_t rows) {
+void OutputFile::keep_rows(const std::string& name, std::size_t rows, std::size_t columns) {
   const Handle data = state_->dataset(name);
-  const std::vector<std::size_t> shape = shape_of(data, name);
-  std::vector<hsize_t> dims(shape.begin(), shape.end());
-  dims[0] = std::min<hsize_t>(dims[0], rows);
-  checked(name, [&] { return H5Dset_extent(data, dims.data()); });
+  require_rows(data, name, state_->path, {rows, columns});
+  std::vector<hsize_t> dims{rows, columns};
+  checked(state_->label(name), [&] { return H5Dset_extent(data, dims.data()); });
 }
 
 bool OutputFile::has(const std::string& name) const { return state_->has(name); }
@@ -287,77 +291,80 @@ std::vector<std::string> OutputFile::names(const std::string& group) const {
 
 DataSet OutputFile::read(const std::string& name) const {
   const Handle data = state_->dataset(name);
-  DataSet result{shape_of(data, name), {}};
+  DataSet result{shape_of(data, state_->label(name)), {}};
   result.values.resize(product(result.shape));
   if (!result.values.empty())
-    checked(name,
+    checked(state_->label(name),
             [&] { return H5Dread(data, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, result.values.data()); });
   return result;
 }
 
 std::vector<std::int64_t> OutputFile::read_integers(const std::string& name) const {
   const Handle data = state_->dataset(name);
-  std::vector<std::int64_t> values(product(shape_of(data, name)));
+  std::vector<std::int64_t> values(product(shape_of(data, state_->label(name))));
   if (!values.empty())
-    checked(name, [&] { return H5Dread(data, H5T_NATIVE_INT64, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()); });
+    checked(state_->label(name),
+            [&] { return H5Dread(data, H5T_NATIVE_INT64, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()); });
   return values;
 }
 
 std::vector<std::size_t> OutputFile::shape(const std::string& name) const {
   const Handle data = state_->dataset(name);
-  return shape_of(data, name);
+  return shape_of(data, state_->label(name));
 }
 
 std::vector<double> OutputFile::read(const std::string& name, const Slab& slab) const {
   const Handle data = state_->dataset(name), source = simple_space(slab.count), place = place_of(slab, name);
   std::vector<double> values(product(slab.count));
-  checked(name, [&] { return H5Dread(data, H5T_NATIVE_DOUBLE, source, place, H5P_DEFAULT, values.data()); });
+  checked(state_->label(name),
+          [&] { return H5Dread(data, H5T_NATIVE_DOUBLE, source, place, H5P_DEFAULT, values.data()); });
   return values;
 }
 
 std::int64_t OutputFile::read_integer(const std::string& name) const {
   const Handle data = state_->dataset(name);
-  if (!shape_of(data, name).empty()) throw FileError(name + " is not one number");
+  if (!shape_of(data, state_->label(name)).empty()) throw FileError(state_->label(name) + " is not one number");
   std::int64_t value = 0;
-  checked(name, [&] { return H5Dread(data, H5T_NATIVE_INT64, H5S_ALL, H5S_ALL, H5P_DEFAULT, &value); });
+  checked(state_->label(name), [&] { return H5Dread(data, H5T_NATIVE_INT64, H5S_ALL, H5S_ALL, H5P_DEFAULT, &value); });
   return value;
 }
 
 std::string OutputFile::read_text(const std::string& name) const {
   const Handle data = state_->dataset(name), type = text_type();
-  if (!shape_of(data, name).empty()) throw FileError(name + " is not one text");
+  if (!shape_of(data, state_->label(name)).empty()) throw FileError(state_->label(name) + " is not one text");
   char* buffer = nullptr;
-  checked(name, [&] { return H5Dread(data, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, &buffer); });
+  checked(state_->label(name), [&] { return H5Dread(data, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, &buffer); });
   return taken(buffer);
 }
 
 bool OutputFile::has_attribute(const std::string& object, const std::string& name) const {
   const Handle owner = state_->object(object);
-  return checked(name, [&] { return H5Aexists(owner, name.c_str()); }) > 0;
+  return checked(state_->label(name), [&] { return H5Aexists(owner, name.c_str()); }) > 0;
 }
 
 double OutputFile::attribute(const std::string& object, const std::string& name) const {
   const Handle owner = state_->object(object);
-  const Handle attribute(name, [&] { return H5Aopen(owner, name.c_str(), H5P_DEFAULT); });
+  const Handle attribute(state_->label(name), [&] { return H5Aopen(owner, name.c_str(), H5P_DEFAULT); });
   double value = 0;
-  checked(name, [&] { return H5Aread(attribute, H5T_NATIVE_DOUBLE, &value); });
+  checked(state_->label(name), [&] { return H5Aread(attribute, H5T_NATIVE_DOUBLE, &value); });
   return value;
 }
 
 std::string OutputFile::text_attribute(const std::string& object, const std::string& name) const {
   const Handle owner = state_->object(object), type = text_type();
-  const Handle attribute(name, [&] { return H5Aopen(owner, name.c_str(), H5P_DEFAULT); });
+  const Handle attribute(state_->label(name), [&] { return H5Aopen(owner, name.c_str(), H5P_DEFAULT); });
   char* buffer = nullptr;
-  checked(name, [&] { return H5Aread(attribute, type, &buffer); });
+  checked(state_->label(name), [&] { return H5Aread(attribute, type, &buffer); });
   return taken(buffer);
 }
 
 std::vector<std::string> OutputFile::texts_attribute(const std::string& object, const std::string& name) const {
   const Handle owner = state_->object(object), type = text_type();
-  const Handle attribute(name, [&] { return H5Aopen(owner, name.c_str(), H5P_DEFAULT); });
-  const Handle space(name, [&] { return H5Aget_space(attribute); });
-  std::vector<char*> buffers(std::size_t(checked(name, [&] { return H5Sget_simple_extent_npoints(space); })), nullptr);
-  checked(name, [&] { return H5Aread(attribute, type, buffers.data()); });
+  const Handle attribute(state_->label(name), [&] { return H5Aopen(owner, name.c_str(), H5P_DEFAULT); });
+  const Handle space(state_->label(name), [&] { return H5Aget_space(attribute); });
+  std::vector<char*> buffers(
+      std::size_t(checked(state_->label(name), [&] { return H5Sget_simple_extent_npoints(space); })), nullptr);
+  checked(state_->label(name), [&] { return H5Aread(attribute, type, buffers.data()); });
   std::vector<std::string> texts;
   for (char* buffer : buffers) texts.push_back(taken(buffer));
   return texts;

@@ -82,7 +82,9 @@ class OutputFile {
   /// A dataset [row][column] that grows: without rows now. Without columns (0) it is [row].
   void make_rows(const std::string& name, std::size_t columns);
   void append_row(const std::string& name, std::span<const double> row);
-  void keep_rows(const std::string& name, std::size_t rows);
+  /// Removes what lies behind the first rows. Throws FileError for a dataset without so many, of other columns, or that
+  /// cannot grow.
+  void keep_rows(const std::string& name, std::size_t rows, std::size_t columns);
 
   [[nodiscard]] bool has(const std::string& name) const;
   /// Names in a group, in alphabetical order.
@@ -106,7 +108,7 @@ class OutputFile {
 
  private:
   OutputFile();
-  void check_kind(const std::filesystem::path& path, const FileKind& kind) const;
+  void check_kind(const std::filesystem::path& path, const FileKind& kind);
 
   struct State;
   std::unique_ptr<State> state_;

@@ -200,4 +200,24 @@ inline void require_own_numbers(hid_t dataset, const std::string& name, const st
     refuse_elsewhere(path, "the numbers of " + name + " are in another file");
 }
 
+/// Throws FileError for a dataset to which rows cannot be added: HDF5 would say why, but not in which file.
+/// \param shape  rows that it has at least, and columns, 0 for one number a row
+inline void require_rows(hid_t dataset, const std::string& name, const std::string& path,
+                         std::pair<std::size_t, std::size_t> shape) {
+  const auto [rows, columns] = shape;
+  const std::vector<std::size_t> has = shape_of(dataset, name);
+  std::vector<hsize_t> most(has.size(), 0);
+  const Handle space(name, [&] { return H5Dget_space(dataset); }), type(name, [&] { return H5Dget_type(dataset); });
+  const Handle properties(name, [&] { return H5Dget_create_plist(dataset); });
+  checked(name, [&] { return H5Sget_simple_extent_dims(space, nullptr, most.data()); });
+  const bool fits = has.size() == (columns > 0 ? 2 : 1) && has[0] >= rows && (columns == 0 || has[1] == columns),
+             chunked = checked(name, [&] { return H5Pget_layout(properties); }) == H5D_CHUNKED,
+             doubles = checked(name, [&] { return H5Tequal(type, H5T_IEEE_F64LE); }) > 0;
+  if (!fits || !chunked || !doubles || most[0] != H5S_UNLIMITED)
+    throw FileError(fmt::format(
+        "{}: the dataset {} cannot be continued: polybed writes double precision in chunks, of any length, here at "
+        "least {} rows{}",
+        path, name, rows, columns > 0 ? fmt::format(" of {} numbers", columns) : ""));
+}
+
 }  // namespace polybed::core::hdf5

@@ -50,8 +50,8 @@ void ProfileWriter::go_on(double resume_time) {
   if (!same) throw FileError(path_.string() + " has other heights or profiles: it cannot be continued");
   const std::vector<double> times = file_->read("time_s").values;
   const auto kept = std::size_t(std::upper_bound(times.begin(), times.end(), resume_time) - times.begin());
-  file_->keep_rows("time_s", kept);
-  for (const std::string& name : names_) file_->keep_rows(name, kept);
+  file_->keep_rows("time_s", kept, 0);
+  for (const std::string& name : names_) file_->keep_rows(name, kept, height_.size());
 }
 
 void ProfileWriter::write_row(double time_s, std::span<const std::vector<double>> rows) {

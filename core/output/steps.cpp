@@ -63,9 +63,9 @@ void StepWriter::go_on(double resume_time) {
   while (!stored_.time.empty() && stored_.time.back() > resume_time) stored_.time.pop_back();
   const std::size_t kept = stored_.time.size();
   for (std::size_t step = kept; step < all; ++step) index_->remove("step/" + step_name(step));
-  index_->keep_rows("time_s", kept);
+  index_->keep_rows("time_s", kept, 0);
   if (!series_.count_name.empty()) {
-    index_->keep_rows(series_.count_name, kept);
+    index_->keep_rows(series_.count_name, kept, 0);
     stored_.count = index_->read(series_.count_name).values;
   }
   write_description();

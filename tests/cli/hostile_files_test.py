@@ -81,6 +81,43 @@ class Endless(Scratch):
         self.assertIn("too long", done.stderr)
 
 
+class OtherLayouts(Scratch):
+    """Datasets that a run cannot add rows to, as other programs write them: the file is named, and stays as it is."""
+
+    LAYOUTS = {
+        "contiguous": lambda group, name, data: group.create_dataset(name, data=data),
+        "of a length": lambda group, name, data: group.create_dataset(name, data=data, chunks=True),
+        "of integers": lambda group, name, data: group.create_dataset(name, data=data, dtype="i8", maxshape=(None, *data.shape[1:])),
+        "of text": lambda group, name, data: group.create_dataset(name, data=np.full(data.shape, b"x"), maxshape=(None, *data.shape[1:])),
+        "one number": lambda group, name, data: group.create_dataset(name, data=data.flat[0]),
+        "short": lambda group, name, data: group.create_dataset(name, data=data[:1], maxshape=(None, *data.shape[1:])),
+        "deeper": lambda group, name, data: group.create_dataset(name, data=data[..., None], maxshape=(None, *data.shape[1:], 1)),
+        "narrow": lambda group, name, data: group.create_dataset(name, data=data[..., :-1], maxshape=(None, *data[..., :-1].shape[1:])),
+    }
+
+    def test_rows_are_not_added(self):
+        case, folder = self.write("case.toml", small_bed("2 ms")), self.folder / "run"
+        more = ["--set", "output.checkpoint_every=1e-3", "--set", "output.every=1e-3", "-o", folder]
+        self.ends(DONE, "tfm", case, *more)
+        kept = {name: (folder / name).read_bytes() for name in ("profiles.h5", "fields.h5")}
+        for file, place in (("profiles.h5", "voidage"), ("profiles.h5", "time_s"), ("fields.h5", "time_s")):
+            for layout, make in self.LAYOUTS.items():
+                if place == "time_s" and layout in ("one number", "short", "narrow", "of integers"):
+                    continue  # there are fewer times then, which is another file
+                with self.subTest(file=file, place=place, layout=layout):
+                    for name, content in kept.items():
+                        (folder / name).write_bytes(content)
+                    with h5py.File(folder / file, "r+") as content:
+                        data = content[place][...]
+                        del content[place]
+                        make(content, place, data)
+                    there = (folder / file).read_bytes()
+                    told = self.ends(FILE, "tfm", case, *more, "--resume", "--until", "3 ms").stderr
+                    self.assertRegex(told, rf"{place} (cannot be continued: polybed writes|of )")  # text is not read at all
+                    self.assertIn(str(folder / file), told)
+                    self.assertEqual((folder / file).read_bytes(), there)
+
+
 SECRET = "password-is-hunter2-and-more-text-follows-here-abcdefghij"
 
 
