@@ -146,7 +146,8 @@ void CaseRun::go() {
         }
         if (progress.due(simulation().time())) progress.show(line());
         return after_step() && !has_become_steady();
-      });
+      },
+      [this] { return stop_wanted(); });
 }
 
 /// Two checks in a row must find the bed steady: one of many checks of a drifting bed may do so by chance. Collective.
@@ -167,8 +168,6 @@ bool CaseRun::has_become_steady() {
 double CaseRun::wall_seconds() const {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - clock_begin_).count();
 }
-
-bool CaseRun::after_step() { return !core::on_any_rank(ranks_.get(), interrupt_.wanted()); }
 
 void CaseRun::judge(std::span<const measures::WorstInvariant> worst) {
   if (options_.permissive) return;

@@ -65,7 +65,7 @@ class CaseRun {
   /// After a step has failed: makes checkpoint() that of the last good state.
   virtual void keep_last_state() {}
   /// After each step: false if the user wants to stop.
-  [[nodiscard]] virtual bool after_step();
+  [[nodiscard]] virtual bool after_step() { return !stop_wanted(); }
   [[nodiscard]] virtual std::vector<double> breakpoints() { return {}; }
   /// What limited the step so far; empty: no step yet.
   [[nodiscard]] virtual std::string limited_by() const = 0;
@@ -124,6 +124,8 @@ class CaseRun {
       past_;  ///< of the checkpoint that the run goes on from; empty without one, or if an older version wrote it
   std::chrono::steady_clock::time_point clock_begin_ = std::chrono::steady_clock::now();
   [[nodiscard]] TimeBand prediction_of(double end) const;
+  /// On any rank. Collective.
+  [[nodiscard]] bool stop_wanted() const { return core::on_any_rank(ranks_.get(), interrupt_.wanted()); }
   void go();
   [[nodiscard]] bool has_become_steady();
   void write_checkpoint();

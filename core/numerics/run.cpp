@@ -1,7 +1,11 @@
 #include "core/numerics/run.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <limits>
+#include <optional>
+#include <string>
 
 #include "core/error.hpp"
 #include "core/numerics/schedule.hpp"
@@ -28,37 +32,80 @@ Event next_event(const Stops& stops, double now) {
   return {time, same_time(time, checkpoint) || same_time(time, stops.until)};
 }
 
+/// The observers of a run, and when each has last acted.
+class Outputs {
+ public:
+  Outputs(Simulation& simulation, const std::vector<Observer>& observers, const std::function<bool()>& stop_wanted)
+      : simulation_(simulation),
+        observers_(observers),
+        stop_wanted_(stop_wanted),
+        acted_(observers.size(), -std::numeric_limits<double>::infinity()) {}
+
+  void at_start(double t) {
+    for (std::size_t n = 0; n < observers_.size(); ++n) act(n, t);
+  }
+
+  /// All that is due in a step, until the user wants to stop. \param last  the run ends with it
+  void of_step(double before, double now, bool last) {
+    bool first = true;
+    for (std::size_t n = 0; n < observers_.size(); ++n) {
+      const double every = observers_[n].every;
+      for (double due = next_multiple(every, before); !left_out_ && !is_later(due, now);
+           due = next_multiple(every, due)) {
+        if (!first && stop_wanted_ && stop_wanted_())
+          left_out_ = due;
+        else
+          act(n, same_time(due, now) ? now : due);
+        first = false;
+      }
+      if (last && acted_[n] < now) act(n, now);
+    }
+  }
+
+  /// From when on the outputs of the last step are missing, s; empty: none is.
+  [[nodiscard]] std::optional<double> left_out() const { return left_out_; }
+
+ private:
+  void act(std::size_t n, double t) {
+    simulation_.show(t);
+    observers_[n].act(t);
+    acted_[n] = t;
+  }
+
+  Simulation& simulation_;
+  const std::vector<Observer>& observers_;
+  const std::function<bool()>& stop_wanted_;
+  std::vector<double> acted_;
+  std::optional<double> left_out_;
+};
+
 }  // namespace
 
 void run(Simulation& simulation, const Stops& stops, const std::vector<Observer>& observers, bool at_start,
-         const std::function<void(double)>& checkpoint, const std::function<bool()>& after_step) {
-  std::vector<double> acted(observers.size(), -std::numeric_limits<double>::infinity());
-  const auto act = [&](std::size_t n, double t) {
-    simulation.show(t);
-    observers[n].act(t);
-    acted[n] = t;
-  };
+         const std::function<void(double)>& checkpoint, const std::function<bool()>& after_step,
+         const std::function<bool()>& stop_wanted) {
+  Outputs outputs(simulation, observers, stop_wanted);
   double before = simulation.time();
-  for (std::size_t n = 0; n < observers.size() && at_start; ++n) act(n, before);
+  if (at_start) outputs.at_start(before);
   Event event = next_event(stops, before);
   for (bool done = !is_later(stops.until, before); !done;) {
     simulation.step(event.time);
     const double now = simulation.time();
     const bool met = now >= event.time;
     done = met && !is_later(stops.until, now);
-    for (std::size_t n = 0; n < observers.size(); ++n) {
-      const double every = observers[n].every;
-      for (double due = next_multiple(every, before); !is_later(due, now); due = next_multiple(every, due))
-        act(n, same_time(due, now) ? now : due);
-      if (done && acted[n] < now) act(n, now);
-    }
+    outputs.of_step(before, now, done);
     before = now;
-    const bool go_on = after_step();
+    const std::optional<double> left_out = outputs.left_out();
+    const bool go_on = after_step() && !left_out;
     if (met || !go_on) {
       simulation.restart();
       if (event.checkpoint || done || !go_on) checkpoint(now);
       event = next_event(stops, now);
     }
+    if (left_out)
+      throw Stopped(fmt::format(
+          "stopped by the user; a checkpoint of t = {:.9g} s has been written, without the outputs from {:.9g} s on",
+          now, *left_out));
     if (!go_on && !done) throw Stopped("stopped by the user; a checkpoint has been written");
   }
 }

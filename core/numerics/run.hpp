@@ -41,8 +41,11 @@ struct Stops {
 /// Observers act at every multiple of their period after the present time, in the order given, and `at_start`
 /// says whether they act on the state at the start too (not after a resume: they have). `checkpoint` is
 /// called at checkpoint times and at the end; `after_step` after every accepted step and returns false if the
-/// user wants to stop: then a checkpoint is written and Stopped is thrown.
+/// user wants to stop: then a checkpoint is written and Stopped is thrown. `stop_wanted` says the same before each
+/// further output of a step that passes several: a step that passes a million does not keep the user waiting, and what
+/// it leaves out is in the message.
 void run(Simulation& simulation, const Stops& stops, const std::vector<Observer>& observers, bool at_start,
-         const std::function<void(double)>& checkpoint, const std::function<bool()>& after_step);
+         const std::function<void(double)>& checkpoint, const std::function<bool()>& after_step,
+         const std::function<bool()>& stop_wanted = {});
 
 }  // namespace polybed::core

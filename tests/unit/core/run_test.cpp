@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <string>
 
 #include "core/case/scene.hpp"
 #include "core/error.hpp"
@@ -121,6 +122,41 @@ TEST(Run, MeetsTheSameEventsAfterAResume) {
 
 TEST(Run, TakesNoStepFromACheckpointAnUlpBeforeTheEnd) {
   EXPECT_TRUE(record_of({1.8, 0.18, {}}, 0.09, 0.1, 10 * 0.18).restarts.empty());
+}
+
+/// A run of two steps of 1 s with outputs every 10 ms whose user wants to stop once a number of rows is written.
+std::string told_of_a_stop(double until, std::size_t rows, Record& record) {
+  Steps steps(1);
+  const auto note = [&](double t) { record.rows.push_back(t); };
+  try {
+    run(
+        steps, {until, 0, {}}, {{"rows", 0.01, note}, {"fields", 0.01, note}}, false,
+        [&](double t) { record.checkpoints.push_back(t); }, [&] { return record.rows.size() < rows; },
+        [&] { return record.rows.size() >= rows; });
+  } catch (const Stopped& stopped) {
+    return stopped.what();
+  }
+  return "";
+}
+
+TEST(Run, StopsBetweenTheOutputsOfAStep) {
+  Record record;
+  EXPECT_THAT(told_of_a_stop(2, 5, record), ::testing::HasSubstr("without the outputs from 0.06 s on"));
+  EXPECT_THAT(record.rows, ElementsAre(0.01, 0.02, 0.03, 0.04, 0.05));
+  EXPECT_THAT(record.checkpoints, ElementsAre(1.0));
+}
+
+TEST(Run, ShowsItsEndEvenIfItIsStoppedBetweenOutputs) {
+  Record record;
+  EXPECT_THAT(told_of_a_stop(1, 3, record), ::testing::HasSubstr("without the outputs from 0.04 s on"));
+  EXPECT_THAT(record.rows, ElementsAre(0.01, 0.02, 0.03, 1.0, 1.0));
+  EXPECT_THAT(record.checkpoints, ElementsAre(1.0));
+}
+
+TEST(Run, LeavesNothingOutIfItIsStoppedAfterTheLastOutput) {
+  Record record;
+  EXPECT_EQ(told_of_a_stop(2, 200, record), "stopped by the user; a checkpoint has been written");
+  EXPECT_EQ(record.rows.size(), 200U);
 }
 
 TEST(Schedule, CountsMultiplesFromATimeThatIsOneUpToRounding) {
