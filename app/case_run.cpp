@@ -253,9 +253,14 @@ void CaseRun::record_if_possible(const std::string& state) {
 std::string CaseRun::record(const std::string& state) {
   const std::string text = record_text(state);
   core::on_first(ranks_.get(), [&] {
-    core::write_atomically(directory_ / "run.json", text + "\n");
+    const std::filesystem::path path = directory_ / "run.json";
+    if (ended_) return core::write_last(path, text + "\n");
     constexpr std::size_t more = 4096;  // than the record of a run that goes on: why it has ended, its last steps
-    if (!ended_) core::keep_room(directory_ / "run.json", 2 * text.size() + more);
+    const std::size_t room = 2 * text.size() + more;
+    if (!recorded_) core::claim_room(path, text.size() + room);  // or the end of the run could not be recorded
+    recorded_ = true;
+    core::write_atomically(path, text + "\n");
+    core::keep_room(path, room);
   });
   return text;
 }
@@ -315,7 +320,7 @@ void record_failed_start(const RunStart& run, const std::string& state) {
   json["time_s"] = 0;
   json["warnings"] = core::Json::array();
   try {
-    core::write_atomically(run.directory / "run.json", core::json_text(json) + "\n");
+    core::write_last(run.directory / "run.json", core::json_text(json) + "\n");
   } catch (const core::FileError&) {  // what has ended the start says more
   }
 }

@@ -144,6 +144,7 @@ class CaseRun {
   Card card_;                            ///< of the last record
   TimeBand prediction_;                  ///< of the whole run
   bool refined_ = false;                 ///< it rests on steps of this run
+  bool recorded_ = false;                ///< room for the record of the end was there once
   bool ended_ = false;                   ///< the run will not go on
   static constexpr double apart = 1.25;  ///< ratio of the times of two checks of steadiness
   double next_look_ = 0;                 ///< s

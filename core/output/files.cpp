@@ -74,6 +74,24 @@ int rename_and_flush(const fs::path& written, const fs::path& path, Flush flush)
   return 0;
 }
 
+/// Claims the blocks of the first bytes of a file; 0 or the reason why not.
+int claim(const Descriptor& file, std::size_t size) {
+  int reason = EINTR;
+  while (reason == EINTR) reason = ::posix_fallocate(file.number(), 0, off_t(size));
+  return reason;
+}
+
+/// Replaces the content of a file where it lies, once the disk has room for all of it; false: it has not, or this is no
+/// file of one name.
+bool overwritten(const fs::path& path, std::span<const std::byte> bytes) {
+  const Descriptor file(::open(path.c_str(), O_WRONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
+  struct stat status {};
+  if (file.number() < 0 || ::fstat(file.number(), &status) != 0) return false;
+  if (!S_ISREG(status.st_mode) || status.st_nlink != 1 || claim(file, bytes.size()) != 0) return false;
+  return write_all(file, bytes) == 0 && ::ftruncate(file.number(), off_t(bytes.size())) == 0 &&
+         ::fsync(file.number()) == 0;
+}
+
 }  // namespace
 
 void cannot(const std::string& deed, const fs::path& path, int reason) {
@@ -86,6 +104,19 @@ Descriptor new_file(const fs::path& path) {
   if (number < 0) cannot("write", path, errno);
   return Descriptor(number);
 }
+
+namespace {
+
+/// 0 or the reason why there is no such file of a size, its blocks claimed.
+int claimed(const fs::path& path, std::span<const std::byte> bytes, std::size_t size) {
+  Descriptor file = new_file(path);
+  int reason = claim(file, std::max(size, bytes.size()));
+  if (reason == 0) reason = write_and_close(file, bytes, {}, Flush::nothing);
+  if (reason != 0) ::unlink(path.c_str());
+  return reason;
+}
+
+}  // namespace
 
 LineFile::LineFile(fs::path path, std::string_view text)
     : path_(std::move(path)), file_(begun(path_, text)), size_(std::int64_t(text.size())) {}
@@ -134,6 +165,14 @@ void write_atomically(const fs::path& path, std::string_view text, Flush flush) 
   write_atomically(path, bytes_of(text), {}, flush);
 }
 
+void write_last(const fs::path& path, std::string_view text) {
+  try {
+    write_atomically(path, text);
+  } catch (const FileError&) {
+    if (!overwritten(path, bytes_of(text))) throw;
+  }
+}
+
 void put_in_place(const fs::path& written, const fs::path& path, Flush flush) {
   Descriptor file(::open(written.c_str(), O_RDWR | O_NOFOLLOW | O_CLOEXEC));
   int reason = file.number() < 0 ? errno : write_and_close(file, {}, {}, flush);
@@ -144,19 +183,18 @@ void put_in_place(const fs::path& written, const fs::path& path, Flush flush) {
 }
 
 void claim_file(const fs::path& path, std::span<const std::byte> bytes, std::size_t size) {
-  Descriptor file = new_file(path);
-  int reason = ::posix_fallocate(file.number(), 0, off_t(std::max(size, bytes.size())));
-  if (reason == 0) reason = write_and_close(file, bytes, {}, Flush::nothing);
-  if (reason == 0) return;
-  ::unlink(path.c_str());
-  cannot("write", path, reason);
+  if (const int reason = claimed(path, bytes, size); reason != 0) cannot("write", path, reason);
+}
+
+void claim_room(const fs::path& path, std::size_t size) {
+  if (const int reason = claimed(path.string() + ".temporary", {}, size); reason != 0) cannot("write", path, reason);
 }
 
 void keep_room(const fs::path& path, std::size_t size) {
-  try {
-    claim_file(path.string() + ".temporary", {}, size);
-  } catch (const FileError&) {  // a disk that is nearly full
-  }
+  for (; size > 0; size /= 2) try {
+      return claim_room(path, size);
+    } catch (const FileError&) {  // a disk that is nearly full
+    }
 }
 
 void append_to_file(const fs::path& path, std::span<const std::byte> bytes) {

@@ -33,8 +33,14 @@ void write_atomically(const std::filesystem::path& path, std::span<const std::by
 void write_atomically(const std::filesystem::path& path, std::string_view text, Flush flush = Flush::all);
 
 /// Claims room on the disk for the next write_atomically() of a file, under the temporary name that it replaces first:
-/// a disk that has become full meanwhile does not keep that content out. Nothing where there is none.
+/// a disk that has become full meanwhile does not keep that content out. Throws FileError.
+void claim_room(const std::filesystem::path& path, std::size_t size);
+/// The same as far as there is room.
 void keep_room(const std::filesystem::path& path, std::size_t size);
+
+/// The last content of a file, atomically or, if the disk is too full for the old and the new one, in place of the old
+/// one: what interrupts it then leaves neither. Throws FileError.
+void write_last(const std::filesystem::path& path, std::string_view text);
 
 /// Puts a file that lies complete under another name of the same directory in place: flushed to the disk, renamed. On
 /// failure the other name is removed and FileError thrown.

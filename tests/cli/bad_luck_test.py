@@ -192,21 +192,37 @@ class FullDisk(Scratch):
                 self.assertIn(f"{directory}/{first}", told)
                 self.goes_on(directory, words)
 
-    def test_the_record_says_so(self):
-        """A disk of some hundred kilobytes that the run itself fills, which takes the rights to mount one."""
+    def on_a_disk_of(self, kilobytes):
+        """What a run said that filled a disk of its own, which takes the rights to mount one, and its record, if there is one."""
         place, kept = self.folder / "disk", self.folder / "kept.json"
-        place.mkdir()
-        script = ('mount -t tmpfs -o size=$1 none "$2" || exit 99; kept=$3; place=$2; shift 3; "$@"; code=$?; '
-                  'cp "$place/run/run.json" "$kept"; exit $code')
-        for size in ("300k", "390k", "500k", "610k", "730k", "860k"):
-            words = ["unshare", "-m" if os.getuid() == 0 else "-rm", "sh", "-c", script, "sh", size, place, kept, *program.command([*WORDS, "--until", "30 s", "-o", place / "run"])]
-            done = subprocess.run(list(map(str, words)), env=program.environment(str(self.folder)), capture_output=True, encoding="utf-8",
-                                  timeout=program.LONGEST)
-            if done.returncode == 99 or done.stderr.startswith("unshare:"):
-                self.skipTest(done.stderr)
-            self.assertEqual(done.returncode, FILE, done.stderr)
-            self.assertRegex(done.stderr, "^cannot write .*: No space left on device\n")
-            self.assertEqual(strict_json(kept.read_text())["state"], "failed: " + done.stderr.rstrip("\n"), size)
+        place.mkdir(exist_ok=True)
+        kept.unlink(missing_ok=True)
+        script = ('mount -t tmpfs -o size=$1k none "$2" || exit 99; kept=$3; place=$2; shift 3; "$@"; code=$?; '
+                  '[ ! -e "$place/run/run.json" ] || cp "$place/run/run.json" "$kept"; exit $code')
+        words = ["unshare", "-m" if os.getuid() == 0 else "-rm", "sh", "-c", script, "sh", kilobytes, place, kept,
+                 *program.command([*WORDS, "--until", "30 s", "-o", place / "run"])]
+        done = subprocess.run(list(map(str, words)), env=program.environment(str(self.folder)), capture_output=True, encoding="utf-8",
+                              timeout=program.LONGEST)
+        if done.returncode == 99 or done.stderr.startswith("unshare:"):
+            self.skipTest(done.stderr)
+        self.assertEqual(done.returncode, FILE, done.stderr)
+        self.assertRegex(done.stderr, "^cannot write .*: No space left on device\n")
+        return done.stderr.rstrip("\n"), strict_json(kept.read_text())["state"] if kept.exists() else None
+
+    def test_the_record_says_so(self):
+        """A disk of some hundred kilobytes that the run itself fills."""
+        for size in (300, 390, 500, 610, 730, 860):
+            told, state = self.on_a_disk_of(size)
+            self.assertEqual(state, f"failed: {told}", size)
+
+    def test_a_run_that_has_no_room_from_the_start_does_not_seem_to_run(self):
+        """Disks on which the record of the run's beginning just fits, page by page."""
+        states = []
+        for size in range(32, 80, 4):
+            told, state = self.on_a_disk_of(size)
+            self.assertIn(state, (None, f"failed: {told}"), size)
+            states.append(state)
+        self.assertGreater(len(set(states)), 1)
 
     def test_no_room_for_a_run(self):
         """The disk is full before the first file is complete. What is left does not keep the same run from beginning."""

@@ -223,6 +223,23 @@ TEST(Profiles, ThatAreNoNumbersAreADamagedFile) {
   EXPECT_THROW(read_profiles(scratch.path()), FileError);
 }
 
+/// A directory in the place of the temporary file stands for a disk without room for a second file.
+TEST(Files, TheLastContentIsWrittenInPlaceWhereItCannotBeReplaced) {
+  const test::Scratch scratch;
+  const fs::path path = scratch.path() / "run.json", other = scratch.path() / "other";
+  write_last(path, "a long record of a run that goes on");
+  fs::create_directories(path.string() + ".temporary/full");
+  EXPECT_THROW(write_atomically(path, "done"), FileError);
+  write_last(path, "done");
+  EXPECT_EQ(read_text(path), "done");
+  fs::create_hard_link(path, other);  // of a user's file
+  EXPECT_THROW(write_last(path, "more"), FileError);
+  fs::remove(path);
+  fs::create_symlink(other, path);
+  EXPECT_THROW(write_last(path, "more"), FileError);
+  EXPECT_EQ(read_text(other), "done");
+}
+
 TEST(History, ReadsBackToTheBitAndResumes) {
   const test::Scratch scratch;
   const std::vector<std::string> columns{"time_s", "interface_m"};
