@@ -2,6 +2,7 @@
 """What studies share: means that the program takes, drifts, folders and children. Usage: study_test.py PROGRAM PACKAGE_DIRECTORY"""
 
 import os
+import signal
 import sys
 import tempfile
 import time
@@ -137,7 +138,7 @@ class Folders(unittest.TestCase):
             end = run_within(0.2, [], 1, output)
         finally:
             os.environ["POLYBED"] = PROGRAM
-        self.assertEqual(end[:2], (128 + 15, True))
+        self.assertEqual(end[:2], (128 + signal.SIGKILL, True))
         self.assertLess(time.monotonic() - begin, 5)
 
 
