@@ -220,6 +220,7 @@ std::string memory_text(double bytes) { return fmt::format("{:.0f} MB of memory"
 void add_continuum(const core::Scene& scene, const Requirements& need, std::vector<std::string>& lines) {
   const std::string time = need.time ? computing_text(tfm_time(scene, need, known_machine()))
                                      : "time not known: the numbers failed in a sample";
+  if (const std::string shape = shape_text(scene.column); !shape.empty()) lines.push_back(card_line("column", shape));
   lines.push_back(card_line("polybed tfm", fmt::format("{:.4g} s on {} cells: {}; {}", scene.run.until, need.cells,
                                                        time, memory_text(need.memory.total()))));
 }

@@ -11,7 +11,7 @@ namespace polybed::app {
 
 namespace {
 
-using Series = std::vector<double>;
+using Numbers = std::vector<double>;
 
 core::Json json_of(const measures::Means& means, bool in_time) {
   core::Json json = core::Json::object();
@@ -41,8 +41,8 @@ core::Json json_of(const measures::StoredRun& run, const measures::InWindow& fou
 }
 
 /// Numbers; NaN for null.
-Series numbers_of(const core::Json& value) {
-  Series found;
+Numbers numbers_of(const core::Json& value) {
+  Numbers found;
   for (const core::Json& number : core::array_of(value))
     found.push_back(number.is_null() ? std::numeric_limits<double>::quiet_NaN() : core::number_of(number));
   return found;
@@ -56,7 +56,7 @@ core::Json interval_of(std::size_t rows, const Function& function) {
   return core::or_null(measures::jackknife_interval(values));
 }
 
-core::Json means_of(const Series& values) {
+core::Json means_of(const Numbers& values) {
   const std::optional<measures::TimeMean> mean = measures::time_mean(values);
   if (!mean) return nullptr;
   return {{"mean", mean->mean},
@@ -68,9 +68,9 @@ core::Json means_of(const Series& values) {
            })}};
 }
 
-core::Json ratio_of(const Series& above, const Series& below) {
+core::Json ratio_of(const Numbers& above, const Numbers& below) {
   if (above.empty() || above.size() != below.size()) throw core::FileError("a ratio of rows that are not pairs");
-  const auto ratio = [](const Series& a, const Series& b) {
+  const auto ratio = [](const Numbers& a, const Numbers& b) {
     return std::accumulate(a.begin(), a.end(), 0.0) / std::accumulate(b.begin(), b.end(), 0.0);
   };
   return {{"value", ratio(above, below)}, {"interval", interval_of(above.size(), [&](const measures::Rows& group) {

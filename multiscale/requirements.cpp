@@ -6,6 +6,8 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "core/numerics/blocks.hpp"
+#include "core/numerics/metric.hpp"
 #include "tfm/fields.hpp"
 #include "tfm/step_estimate.hpp"
 
@@ -33,6 +35,7 @@ void draw_in(core::Scene& scene, std::size_t axis, int cells) {
     for (core::Layer& layer : scene.layers) layer.height *= share;
     return;
   }
+  if (column.is_round()) column.shape = core::ColumnShape::box;  // a part of its inside
   const std::size_t direction = axis == 0 ? 0 : 1;
   const auto draw = [&](auto& part) {
     if (part.from.size() <= direction) return;  // all across
@@ -201,6 +204,24 @@ core::Scene narrow_part(const core::Scene& scene, std::size_t most_cells) {
       part.tfm.max_packing = part.bed.solids_fraction + 0.05;
   }
   return part;
+}
+
+std::string shape_text(const core::Column& column) {
+  if (column.shape == core::ColumnShape::box) return "";
+  const double radius = column.around_axis() ? column.size[0] : 0.5 * column.size[0];
+  const std::string across = fmt::format("round, {:.4g} mm across", 2e3 * radius);
+  if (column.around_axis())
+    return fmt::format("{}: {} rings of {:.3g} mm", across, column.cells[0], 1e3 * radius / column.cells[0]);
+  const core::Grid grid = core::grid_of(column, nullptr);
+  std::size_t open = 0;
+  double least = 1;
+  for (const double theta : grid.metric->section.volume) {
+    if (!(theta > 0)) continue;
+    ++open;
+    least = std::min(least, theta);
+  }
+  return fmt::format("{}: {} cells, {} of {} in a layer are open, the smallest {:.2g} of a whole one", across,
+                     column.cells[0], open, grid.metric->section.volume.size(), least);
 }
 
 Requirements requirements_of(const core::Scene& scene, core::Timers& timers, std::unique_ptr<tfm::Model>& model) {

@@ -53,6 +53,9 @@ struct Requirements {
 /// the bed. What decides the steps, cell size, velocities and composition, stays.
 [[nodiscard]] core::Scene narrow_part(const core::Scene& scene, std::size_t most_cells);
 
+/// How a round column lies on its grid, in words; empty for a box.
+[[nodiscard]] std::string shape_text(const core::Column& column);
+
 /// Builds and steps a narrow part of the case for at most about a second of computing.
 /// \param model  receives the model of the part, for what else follows from a case
 [[nodiscard]] Requirements requirements_of(const core::Scene& scene, core::Timers& timers,

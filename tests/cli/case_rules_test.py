@@ -5,7 +5,7 @@ import re
 import program
 from feed_rules import FEEDS, feeds
 from layer_rules import COUNTED, LAYERS
-from wall_rules import AROUND, ROUND_CONTINUUM, ROUND_FOR_ONE_MODEL, WALLS
+from wall_rules import ROUND, ROUND_CONTINUUM, ROUND_FOR_ONE_MODEL, WALLS
 from program import DONE, WRONG_CASE, Scratch, run, strict_json
 
 BED = """[column]
@@ -159,7 +159,8 @@ TABLE = program.ROOT / "cases/small-binary/table.h5"
 CONTACT = "effects.contact: particles need a law of contact: hertz_mindlin, hertz or linear"
 ONE_MODEL = {
     **ROUND_FOR_ONE_MODEL,
-    "column.gravity_direction other than down in a round column" + TFM_CANNOT: [*NO_FLUID, TILTED, AROUND],
+    "column.gravity_direction other than down in a round column" + TFM_CANNOT: [
+        *NO_FLUID, "column.gravity_direction=[1, 0, -1]", "bed.static_height=0.002", *ROUND],
     CONTACT: ["effects.contact=none"],  # a case that is not meant for particles has no note of it
     'fluid.name = "none"' + TFM_CANNOT: NO_FLUID,
     'column.ends = "periodic"' + TFM_CANNOT: [*NO_FLUID, JOINED],

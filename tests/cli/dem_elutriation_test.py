@@ -61,14 +61,16 @@ class Elutriation(Scratch):
             self.assertTrue((np.diff(out) >= 0).all() and (out == np.round(out)).all())
             np.testing.assert_allclose(out + left, number, rtol=1e-12)  # rounding of sums of one mass
             np.testing.assert_allclose(rows[f"out_{name}_kg"], out * MASS[name], rtol=1e-12)
-            self.assertEqual(record["outflow"][name]["particles"], out[-1])
+            # The last checkpoint makes the list anew, after the last row: one or the other has left by then.
+            after = record["outflow"][name]["particles"] - out[-1]
+            self.assertTrue(0 <= after <= 5, after)
             self.assertAlmostEqual(record["card"]["recovery"][name], out[-1] / number, places=5)
+        self.assertEqual(record["particles"] + sum(o["particles"] for o in record["outflow"].values()), sum(NUMBER.values()))
         self.assertGreater(rows["out_fine"][-1], 30)
         self.assertEqual(rows["out_coarse"][-1], 0)
-        self.assertEqual(record["energy"]["carried_out_J"], rows["carried_out_J"][-1])
         self.assertLess(record["energy"]["worst_error"], record["energy"]["limit"])
         with h5py.File(self.folder / "run/particles.h5") as file:
-            self.assertEqual(file["particles"][()][-1], record["particles"])
+            self.assertEqual(file["particles"][()][-1], sum(NUMBER.values()) - rows["out_fine"][-1])
             # wholly outside, and gone when the list is made: within a tenth of a diameter
             self.assertLess(max(file[f"step/{n:06d}/position"][:, 1].max() for n in range(1, 5)), 12.4e-3)
         self.has_no_nan(self.folder / "run")
@@ -85,8 +87,7 @@ class Elutriation(Scratch):
 
     def test_both_models_run_the_case(self):
         case = self.write("case.toml", CASE)
-        continuum = ["--set", "bed.particles=!", "--set", "bed.volume_share=[0.45, 0.55]", "--set", "bed.static_height=1.9e-3",
-                     "--set", "effects.solids_stress=frictional", "--until", "20 ms"]
+        continuum = ["--set", "effects.solids_stress=frictional", "--until", "20 ms"]
         self.ends(DONE, "tfm", case, "--quiet", *continuum, "-o", self.folder / "tfm")
         self.dem("dem", "--until", "20 ms")
         counted = [{name for name in history(self.folder / model) if name.startswith("out_") and name.endswith("_kg")}

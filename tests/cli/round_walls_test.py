@@ -88,11 +88,11 @@ class RoundHopper(Scratch):
         self.assertIn("two.csv:3", told)
         self.assertIn("the centre lies outside the round column", told)
 
-    def test_a_fluid_needs_a_box(self):
+    def test_walls_inside_are_for_dry_runs(self):
         wet = BED.replace('name = "none"', 'name = "water"\ntemperature = "20 degC"')
         for model in ("dem", "tfm"):
             told = self.ends(WRONG_CASE, model, self.write("wet.toml", wet), "-o", self.folder / "wet").stderr
-            self.assertIn("the fluid knows box-shaped columns only", told)
+            self.assertIn("[[wall]]: a fluid would pass through it", told)
 
     def test_the_resolved_case_keeps_its_shapes(self):
         resolved = strict_json(self.ends(DONE, "check", self.write("a.toml", BED), "--json").stdout)["case"]

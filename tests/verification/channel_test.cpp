@@ -68,11 +68,11 @@ TEST(Channel, ConvergesToPoiseuillesParabolaInSecondOrder) {
 Channel pipe(int n, core::ColumnShape shape) {
   constexpr double radius = 0.005, velocity = 0.02;
   const bool whole = shape == core::ColumnShape::cylinder;
-  const int rows = whole ? 3 * n : 6 * n;
-  core::Scene scene = uniform_bed(1e-3, 2000, 1000, 0.1, 0.5, rows, 6 * radius);
+  const int rows = whole ? 2 * n : 4 * n;
+  core::Scene scene = uniform_bed(1e-3, 2000, 1000, 0.1, 0.5, rows, 4 * radius);
   scene.column.shape = shape;
   scene.column.dimensions = whole ? 3 : 2;
-  scene.column.size = {whole ? 2 * radius : radius, 6 * radius, whole ? 2 * radius : std::numbers::pi * radius};
+  scene.column.size = {whole ? 2 * radius : radius, 4 * radius, whole ? 2 * radius : std::numbers::pi * radius};
   scene.column.cells = {n, rows, whole ? n : 1};
   scene.column.sides = core::Boundary::wall;
   scene.bed.static_height = 0;
@@ -83,7 +83,7 @@ Channel pipe(int n, core::ColumnShape shape) {
   scene.tfm.pressure_tolerance = 1e-8;
   core::Timers timers;
   tfm::Model model(scene, timers);
-  advance(model, 0.5);  // two times R^2/nu, of which the slowest disturbance takes a sixth to fall to 1/e
+  advance(model, 0.4);  // R^2/nu is 0.25 s, of which the slowest disturbance takes a sixth to fall to 1/e
   const core::Grid& grid = model.constants().grid;
   const auto& u = model.fields().fluid.velocity[1];
   const auto& p = model.fields().fluid.pressure;
@@ -116,13 +116,13 @@ TEST(Pipe, ConvergesToItsParabolaInSecondOrderAroundAnAxis) {
   EXPECT_LT(fine.gradient, 4e-3);
 }
 
-// Cells that the wall cuts: one and a half orders, and a percent of the resistance with 16 cells across.
-TEST(Pipe, ConvergesWhereItsWallCutsCells) {
-  const Channel coarse = pipe(8, core::ColumnShape::cylinder), fine = pipe(16, core::ColumnShape::cylinder);
-  record("pipe of cut cells: profile, 16", fine.profile);
-  record("pipe of cut cells: gradient, 16", fine.gradient);
-  EXPECT_GT(std::log2(coarse.profile / fine.profile), 1.5);
-  EXPECT_LT(fine.gradient, 0.01);
+// Cells that the wall cuts: the resistance is what the equations of one cross-section say, which unit/core/metric_test
+// solves and compares with Poiseuille's: 4.1 % more flow with 8 cells across.
+TEST(Pipe, ResistsAsItsCutCrossSectionDoes) {
+  const Channel cut = pipe(8, core::ColumnShape::cylinder);
+  record("pipe of cut cells: profile, 8", cut.profile);
+  record("pipe of cut cells: gradient, 8", cut.gradient);
+  EXPECT_NEAR(cut.gradient, 1 - 1 / 1.04124, 2e-3);
 }
 
 }  // namespace
