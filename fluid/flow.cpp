@@ -50,7 +50,9 @@ Flow::Flow(const core::Scene& scene, const core::Grid& grid, double tolerance)
       mobility_(core::make_face_field(grid)),
       own_flux_(core::make_face_field(grid)),
       source_(core::make_field(grid)),
-      change_(core::make_field(grid)) {
+      change_(core::make_field(grid)),
+      per_square_(viscous_rate(grid)) {
+  if (grid.metric) open_mobility_ = core::make_face_field(grid);
   if (!scene.fluid.compressible()) return;
   compressible_.emplace(grid, boundaries_, equation_of_state(scene.fluid, constants_.density),
                         scene.fluid.outlet_pressure, constants_.density, gravity_);
@@ -73,6 +75,7 @@ void Flow::begin(double t, const ParticlePhase& particles) {
     });
   }
   clear(velocity_change_);
+  hold();
   clear(own_flux_);          // an impulse carries nothing on
   constexpr double any = 1;  // s: it has no duration
   FlowStep step;
@@ -90,6 +93,7 @@ FlowStep Flow::advance(double t, double dt, const ParticlePhase& particles) {
   set_inlet(t + dt);
   find_acceleration(dt, particles);
   with_density(fluid_, constants_.density, [&](const auto& density) { push(density, dt, particles); });
+  hold();
   close_pressure(t, dt, step);
   correct(dt);
   if (compressible_) finish_compression(dt, step);
@@ -133,6 +137,7 @@ void Flow::set_inlet(double t) {
     for (auto c = std::size_t(begin); c < std::size_t(end); ++c)
       fluid_.velocity[1][c] = fluid_.flux[1][c] / fluid_.voidage[c];
   });
+  core::hold_closed(grid_, fluid_.velocity);
 }
 
 /// a, and dt (U.grad)U.
@@ -141,6 +146,7 @@ void Flow::find_acceleration(double dt, const ParticlePhase& particles) {
   find_own_flux(particles);
   const auto on_face = [&](std::size_t a, Index c, Index) { return particles.voidage_on[a][std::size_t(c)]; };
   convection(grid_, boundaries_, limited_, true, own_flux_, fluid_.velocity, on_face, acceleration_);
+  core::hold_closed(grid_, acceleration_);
   for (std::size_t a = 0; a < std::size_t(grid_.dimensions); ++a)
     for (std::size_t c = 0; c < convected_[a].size(); ++c) convected_[a][c] = -dt * acceleration_[a][c];
   if (viscous_) add_viscous_stress(grid_, boundaries_, fluid_, constants_, acceleration_);
@@ -189,6 +195,13 @@ void Flow::push(const Density& density, double dt, const ParticlePhase& particle
   }
 }
 
+/// Where a round wall closes faces nothing moves, whatever the pressure.
+void Flow::hold() {
+  core::hold_closed(grid_, velocity_change_);
+  core::hold_closed(grid_, fluid_.flux);
+  core::hold_closed(grid_, per_inertia_);
+}
+
 /// What a fluid that yields to pressure adds to the constraint, over dt: div J = -kappa dP/dt - (Q.grad) rho_f/rho_f.
 /// The last is taken between faces and cell, so that with div J it is div(rho_f Q): what leaves a cell enters the next.
 void Flow::add_compression(double dt) {
@@ -211,6 +224,16 @@ void Flow::add_compression(double dt) {
   });
 }
 
+/// B as the solver takes it, with the source; the faces of B itself that a round wall closes are held.
+const core::FaceField& Flow::open_mobility() {
+  if (!grid_.metric) return mobility_;
+  open_mobility_ = mobility_;
+  core::weigh_faces(grid_, open_mobility_);
+  core::weigh_cells(grid_, source_);
+  core::hold_closed(grid_, mobility_);
+  return open_mobility_;
+}
+
 /// The change of pressure that makes J what the constraint asks for: -dt div(B grad dp) [+ kappa dp/dt] = -div J.
 void Flow::close_pressure(double t, double dt, FlowStep& step) {
   boundaries_.join(fluid_.flux, mobility_);
@@ -218,8 +241,7 @@ void Flow::close_pressure(double t, double dt, FlowStep& step) {
   for (double& s : source_) s = -s / dt;
   if (compressible_) add_compression(dt);
   std::fill(change_.begin(), change_.end(), 0.0);
-  const core::PoissonResult result =
-      solver_.solve({mobility_[0], mobility_[1], mobility_[2]}, shift_, source_, change_, tolerance_);
+  const core::PoissonResult result = solver_.solve(core::spans(open_mobility()), shift_, source_, change_, tolerance_);
   step.iterations = result.iterations;
   step.residual = result.residual;
   if (!result.converged)
@@ -268,29 +290,56 @@ void Flow::gradient_of(const Field& p, core::FaceField& out) {
       for (Index c = begin; c < end; ++c) g[std::size_t(c)] = g[std::size_t(c - s)];
     });
   }
+  if (grid_.metric) gradient_on_closed(out);
   boundaries_.join(out);
+}
+
+/// The mean of the open faces next to them along their axis, as on walls that follow the grid.
+void Flow::gradient_on_closed(core::FaceField& out) {
+  std::array<Ghosts, 3> ghosts{};
+  for (std::size_t a = 0; a < 3; ++a) ghosts[a] = {Ghosts::Kind::joined, &out[a]};
+  boundaries_.fill(std::span(ghosts).first(std::size_t(grid_.dimensions)));
+  for (int axis = 0; axis < grid_.dimensions; ++axis) {
+    const Field& open = grid_.metric->open[std::size_t(axis)];
+    Field& g = out[std::size_t(axis)];
+    const Index s = grid_.stride(axis);
+    core::for_each_row(grid_, core::owned_faces(grid_, axis), [&](Index begin, Index end) {
+      for (Index f = begin; f < end; ++f) {
+        if (open[std::size_t(f)] > 0) continue;
+        double sum = 0, count = 0;
+        for (const Index next : {f - s, f + s}) {
+          if (!(open[std::size_t(next)] > 0)) continue;
+          sum += g[std::size_t(next)];
+          ++count;
+        }
+        g[std::size_t(f)] = count > 0 ? sum / count : 0;
+      }
+    });
+  }
 }
 
 double Flow::courant(double dt) const {
   double most = 0;
-  for (int axis = 0; axis < grid_.dimensions; ++axis) {
-    const auto a = std::size_t(axis);
-    const double h = grid_.spacing[a];
-    core::for_each_row(grid_, core::owned_faces(grid_, axis), [&](Index begin, Index end) {
-      for (auto c = std::size_t(begin); c < std::size_t(end); ++c) {
-        const double crossed = std::abs(fluid_.velocity[a][c]) * dt / h;
-        most = crossed <= most ? most : crossed;  // turned round, so that what is not a number stays
-      }
-    });
-  }
+  core::with_metric(grid_, [&]<class Metric>(const Metric& metric) {
+    for (int axis = 0; axis < grid_.dimensions; ++axis) {
+      const auto a = std::size_t(axis);
+      const double h = grid_.spacing[a], *u = fluid_.velocity[a].data();
+      const Index s = grid_.stride(axis);
+      core::for_each_row(grid_, core::owned_faces(grid_, axis), [&](Index begin, Index end) {
+        for (Index c = begin; c < end; ++c) {
+          double crossed = std::abs(u[c]) * dt / h;
+          if constexpr (Metric::radial)  // of the smaller of the cells beside the face
+            crossed *= metric.open(a, c) * std::max(metric.per_volume(c - s), metric.per_volume(c));
+          most = crossed <= most ? most : crossed;  // turned round, so that what is not a number stays
+        }
+      });
+    }
+  });
   return std::max(core::greatest_of_ranks(grid_, most), viscous_courant(dt));
 }
 
 double Flow::viscous_courant(double dt) const {
-  double per_square = 0;
-  for (int axis = 0; axis < grid_.dimensions; ++axis)
-    per_square += 1 / (grid_.spacing[std::size_t(axis)] * grid_.spacing[std::size_t(axis)]);
-  return viscous_ ? 2 * constants_.viscosity / constants_.density * dt * per_square : 0;
+  return viscous_ ? 2 * constants_.viscosity / constants_.density * dt * per_square_ : 0;
 }
 
 }  // namespace polybed::fluid

@@ -77,11 +77,14 @@ class Flow {
   template <class Density>
   void push(const Density& density, double dt, const ParticlePhase& particles);
   void add_compression(double dt);
+  void hold();
+  const core::FaceField& open_mobility();
   void close_pressure(double t, double dt, FlowStep& step);
   void correct(double dt);
   [[nodiscard]] double courant(double dt) const;
   [[nodiscard]] double viscous_courant(double dt) const;
   void gradient_of(const core::Field& p, core::FaceField& out);
+  void gradient_on_closed(core::FaceField& out);
 
   core::Grid grid_;
   Boundaries boundaries_;
@@ -94,12 +97,14 @@ class Flow {
   core::PoissonSolver solver_;
   FluidState fluid_;
   core::FaceField convected_, acceleration_, velocity_change_, gradient_, gradient_change_;
-  core::FaceField per_inertia_;  ///< (eps + S)/(m + K), 1/(kg/m3): what dU gains by -dt dG
-  core::FaceField mobility_;     ///< B, m3/kg
-  core::FaceField own_flux_;     ///< eps U, m/s
-  core::Field source_, change_;  ///< of the pressure's equation: right-hand side, 1/s2, and solution, Pa
-  core::Field shift_;            ///< kappa/dt^2; empty without compression
-  core::Field with_ghosts_;      ///< a pressure whose gradient is being taken
+  core::FaceField per_inertia_;    ///< (eps + S)/(m + K), 1/(kg/m3): what dU gains by -dt dG
+  core::FaceField mobility_;       ///< B, m3/kg
+  core::FaceField open_mobility_;  ///< of a round column, times the open share of faces
+  core::FaceField own_flux_;       ///< eps U, m/s
+  core::Field source_, change_;    ///< of the pressure's equation: right-hand side, 1/s2, and solution, Pa
+  core::Field shift_;              ///< kappa/dt^2; empty without compression
+  core::Field with_ghosts_;        ///< a pressure whose gradient is being taken
+  double per_square_;              ///< of the viscous stress, see viscous_rate, 1/m2
 };
 
 }  // namespace polybed::fluid

@@ -34,6 +34,11 @@ class LineDiffusion {
   static constexpr int lanes = 8;  ///< lines done at once, as one runs into the latency of the arithmetic
   /// \param lambda  of each step: its time over the cell size squared
   LineDiffusion(int count, bool joined, double lambda, int steps);
+  /// Of entries of unequal open volume V between faces of open share A: (V + lambda L_A)^-1 V, no flux through the
+  /// ends.
+  /// Closed entries stay as they are. \param open  of the face below each entry; 0 below the first and next to a closed
+  /// entry
+  LineDiffusion(const std::vector<double>& volume, const std::vector<double>& open, double lambda, int steps);
   [[nodiscard]] int count() const { return int(gain_.size()); }
   /// Smooths `lanes` lines; entry i of line l is tile[i * lanes + l].
   void apply(double* tile) const;
@@ -41,8 +46,8 @@ class LineDiffusion {
  private:
   template <bool forward>
   void pass(double* tile) const;
-  std::vector<double> gain_, carry_;  ///< y[i] = gain[i] b[i] + carry[i] y[i-1]; then x[i] = y[i] + carry[i] x[i+1]
-  double around_ = 0;                 ///< 1/(1 - q^count): all turns around joined ends; 0 where they are not joined
+  std::vector<double> gain_, carry_, back_;  ///< y[i] = gain[i] b[i] + carry[i] y[i-1]; x[i] = y[i] + back[i] x[i+1]
+  double around_ = 0;  ///< 1/(1 - q^count): all turns around joined ends; 0 where they are not joined
   int steps_;
 };
 
@@ -52,6 +57,10 @@ class LineDiffusion {
 /// keeps constants and conserves the sum of what it smooths, each to round-off, so that what is gathered with it and
 /// what is scattered with it are adjoint. Steps of implicit Euler have the exact second moment, 2 tau along each axis,
 /// however few and whatever the cells; their number sets the shape (see smoothing.cpp).
+///
+/// In a round column flux passes the open shares of faces, entries weigh with their open volumes, and lines along x and
+/// z do not commute: half of the steps along x come before those along z and half behind, so that the operator is
+/// symmetric in the product that is weighed by volume. There faces that the wall closes are held.
 ///
 /// smooth_cells(div F) = div(smooth_faces(F)) along joined axes, and for the component of F along a joined axis
 /// whatever the other axes are. For the component normal to walls both have the same sum, but they agree only where the
@@ -66,7 +75,7 @@ class Smoothing {
   /// Smooths a cell field in place: no flux through walls, bottom and top. Ghosts are neither read nor written.
   void smooth_cells(core::Field& field) const { smooth(cells_, field); }
   /// Of what stands in a cell: the shares that stay in it and that come to the next one along an axis alone; the kernel
-  /// is the product over the axes. \param count  cells along the axis
+  /// is the product over the axes, of a box alone. \param count  cells along the axis
   [[nodiscard]] std::vector<std::array<double, 2>> nearest(int axis, int count) const;
   /// Smooths a component of a quantity on the faces of an axis. The faces on walls and on the bottom are held, those of
   /// the top if it is closed: neither read nor written, no flux between them and their neighbours. An open top's are
@@ -83,6 +92,7 @@ class Smoothing {
   };
   using Sweeps = std::vector<Sweep>;
   [[nodiscard]] static Sweeps sweeps(const core::Grid& grid, const core::Box& box, double time);
+  [[nodiscard]] static Sweeps open_sweeps(const core::Grid& grid, int of, const core::Box& box, double time);
   void smooth(const Sweeps& sweeps, core::Field& field) const;
 
   Sweeps cells_;

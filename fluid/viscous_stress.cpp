@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/numerics/operators.hpp"
+#include "core/numerics/ranks.hpp"
 #include "core/vectors.hpp"
 #include "fluid/density.hpp"
 #include "fluid/face_stress.hpp"
@@ -44,7 +45,40 @@ void subtract_wall_friction(const core::Grid& grid, const Boundaries& boundaries
   }
 }
 
+/// Half of what a velocity is multiplied by in its own equation, over the kinematic viscosity: between cells of its
+/// momentum by the mean open share of the faces that they have in common.
+double rate_of_face(const core::Grid& grid, std::size_t a, Index f) {
+  const core::Metric& metric = *grid.metric;
+  const auto at = std::size_t(f), low = std::size_t(f - grid.stride(int(a)));
+  double rate = metric.wall[a][at] / 4;
+  for (std::size_t b = 0; b < std::size_t(grid.dimensions); ++b) {
+    const auto next = std::size_t(grid.stride(int(b)));
+    const core::Field& open = metric.open[b];
+    const double both = b == a ? metric.volume[low] + metric.volume[at]
+                               : 0.5 * (open[low] + open[at] + open[low + next] + open[at + next]);
+    rate += 0.5 * both * metric.per_volume_on[a][at] / (grid.spacing[b] * grid.spacing[b]);
+  }
+  return rate;
+}
+
 }  // namespace
+
+double viscous_rate(const core::Grid& grid) {
+  double most = 0;
+  if (!grid.metric) {
+    for (int axis = 0; axis < grid.dimensions; ++axis)
+      most += 1 / (grid.spacing[std::size_t(axis)] * grid.spacing[std::size_t(axis)]);
+    return most;
+  }
+  for (int axis = 0; axis < grid.dimensions; ++axis) {
+    const auto a = std::size_t(axis);
+    core::for_each_row(grid, core::interior_faces(grid, axis), [&](Index begin, Index end) {
+      for (Index f = begin; f < end; ++f)
+        if (grid.metric->open[a][std::size_t(f)] > 0) most = std::max(most, rate_of_face(grid, a, f));
+    });
+  }
+  return core::greatest_of_ranks(grid, most);
+}
 
 void add_viscous_stress(const core::Grid& grid, const Boundaries& boundaries, const FluidState& fluid,
                         const relevance::FluidConstants& constants, core::FaceField& acceleration) {

@@ -14,4 +14,9 @@ namespace polybed::fluid {
 void add_viscous_stress(const core::Grid& grid, const Boundaries& boundaries, const FluidState& fluid,
                         const relevance::FluidConstants& constants, core::FaceField& acceleration);
 
+/// How fast the stress acts at most, over twice the kinematic viscosity, 1/m2: an explicit step dt is stable while
+/// 2 nu dt times this is at most 1. sum(1/h^2) in a box; in a round column cut cells and the friction of the wall count
+/// too. Collective.
+[[nodiscard]] double viscous_rate(const core::Grid& grid);
+
 }  // namespace polybed::fluid
