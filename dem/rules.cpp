@@ -17,6 +17,13 @@ std::vector<core::Rule> key_rules() {
        "\"auto\"",
        [](const core::Scene& scene) {
          return core::broken_if(scene.dem.kernel == core::Kernel::bilinear && scene.dem.kernel_width.has_value());
+       }},
+      {{"column.shape", "dem.own_share"},
+       "column.shape = \"cylinder\" and dem.own_share = \"removed\" cannot be combined yet; use dem.own_share = "
+       "\"kept\"",
+       [](const core::Scene& scene) {
+         return core::broken_if(scene.column.is_round() && scene.fluid.present() &&
+                                scene.dem.own_share == core::OwnShare::removed);
        }}};
   return relevance::joined({rules_of_keys(), own, feed_rules()});
 }
@@ -27,10 +34,6 @@ const std::vector<core::Rule>& model_rules() {
        "column.shape = \"axisymmetric\": polybed tfm can run it, polybed dem cannot: particles go around the axis; use "
        "\"cylinder\"",
        [](const core::Scene& scene) { return core::broken_if(scene.column.around_axis()); }},
-      {{"column.shape", "fluid.name"},
-       "column.shape = \"cylinder\" with a fluid: polybed tfm can run it, polybed dem cannot: its particles know round "
-       "columns, its fluid does not yet; use column.shape = \"box\", or fluid.name = \"none\"",
-       [](const core::Scene& scene) { return core::broken_if(scene.column.is_round() && scene.fluid.present()); }},
       {{"column.outlet", "fluid.name", "fluid.equation_of_state"},
        "column.outlet = \"open\" in a compressible fluid: polybed tfm can run it, polybed dem cannot: the mass of the "
        "fluid that takes the place of a particle as it leaves would be missing; use fluid.equation_of_state = "

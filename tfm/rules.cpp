@@ -113,14 +113,6 @@ std::vector<core::Rule> key_rules() {
        "column.shape = \"{}\" and tfm.solids_wall = \"{}\" cannot be combined yet: the solids slip freely along round "
        "walls",
        slow_solids_on_round_wall},
-      {{"column.shape", "fluid.equation_of_state"},
-       "column.shape = \"{}\" and a compressible fluid cannot be combined yet; use fluid.equation_of_state = "
-       "\"incompressible\"",
-       [](const Scene& scene) {
-         const core::ColumnShape shape = scene.column.shape;
-         if (shape == core::ColumnShape::box || !scene.fluid.compressible()) return Broken();
-         return Broken({std::string(core::name_of(shape))});
-       }},
       {{"tfm.fixed_step", "tfm.integrator"},
        "tfm.fixed_step works with explicit and imex steps only",
        [](const Scene& scene) { return core::broken_if(is_implicit(scene) && scene.tfm.fixed_step); }}};

@@ -75,13 +75,14 @@ struct FluidChange {
 };
 
 /// What the change of the fluid would have done to the particles in its step: see fluid::ParticlePhase.
+template <bool round>
 void push_by(FluidChange change, double dt, const Gather& gather, FluidMotion& motion, Particles& particles) {
   for (std::size_t i = 0; i < particles.owned; ++i) {
     const FluidLoad& f = motion.load[i];
     Motion& m = particles.motion[i];
     const double volume = closures::sphere_volume(particles.place[i].radius);
     const double inertia = 1 / m.inverse_mass + f.added, x = f.drag * dt / inertia, s = mean_decay(x);
-    const Lines lines = gather.lines(particles.place[i].x);
+    const auto lines = gather.shares<round>(particles.place[i].x);
     const Vector du = gather.vector(lines, change.velocity), dg = gather.vector(lines, change.gradient);
     Vector dv;
     for (std::size_t k = 0; k < 3; ++k) dv[k] = x * s * du[k] - volume / inertia * s * dt * dg[k];
@@ -259,8 +260,11 @@ void Coupling::couple_two_way(Particles& particles) {
   if (phase_.added_mass()) carried = flow_.convected();
   for (core::FaceField* field : {&change, &push, &carried}) smooth(*field);
   if (exchange_) here({&change, &push, &carried});
-  core::in_vectors<push_by>(FluidChange{change, push, phase_.added_mass() ? &carried : nullptr}, interval(), gather_,
-                            motion_, particles);
+  const FluidChange all{change, push, phase_.added_mass() ? &carried : nullptr};
+  if (gather_.round())
+    core::in_vectors<push_by<true>>(all, interval(), gather_, motion_, particles);
+  else
+    core::in_vectors<push_by<false>>(all, interval(), gather_, motion_, particles);
 }
 
 }  // namespace polybed::dem

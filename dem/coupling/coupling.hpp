@@ -88,6 +88,7 @@ class Coupling final : public KeptPart {
   [[nodiscard]] const fluid::FlowStep& last_step() const { return last_; }
   [[nodiscard]] const std::vector<core::Field>& fraction() const { return fraction_; }
   [[nodiscard]] const ParticleForces& forces() const { return forces_; }
+  [[nodiscard]] const Gather& gather() const { return gather_; }
   [[nodiscard]] SideForces& sides() { return sides_; }
   [[nodiscard]] const SideForces& sides() const { return sides_; }
   [[nodiscard]] int every() const { return every_; }

@@ -2,6 +2,7 @@
 
 #include "closures/sphere.hpp"
 #include "core/numerics/blocks.hpp"
+#include "core/numerics/metric.hpp"
 #include "measures/profile.hpp"
 
 namespace polybed::dem {
@@ -36,23 +37,35 @@ Field voidage_of(const core::Grid& grid, const std::vector<Field>& fraction) {
   return eps;
 }
 
+/// What is smoothed counts for the open part of a cell.
+void per_open_volume(const core::Grid& grid, Field& sums) {
+  if (!grid.metric) return;
+  for (std::size_t c = 0; c < sums.size(); ++c) sums[c] *= grid.metric->per_volume[c];
+}
+
 }  // namespace
 
 std::vector<core::FaceField> mean_velocities(const core::Grid& grid, const fluid::Smoothing& smoothing,
-                                             const core::ParticleSnapshot& particles, std::size_t species) {
+                                             const core::ParticleSnapshot& particles, std::size_t species,
+                                             const RoundWeights* round) {
   std::vector<core::FaceField> mean(species, core::make_face_field(grid));
   std::vector<Field> volume(species, core::make_field(grid));
-  const Weights weights(grid);
   const double least = no_particles * grid.cell_volume();
-  for (std::size_t i = 0; i < particles.id.size(); ++i) {
-    const double v = closures::sphere_volume(particles.radius[i]);
-    const auto j = std::size_t(particles.species[i]);
-    for_each_cell(grid.dimensions, weights(particles.position[i]), [&](std::size_t at, double w) {
-      volume[j][at] += w * v;
-      for (std::size_t a = 0; a < std::size_t(grid.dimensions); ++a) mean[j][a][at] += w * v * particles.velocity[i][a];
-    });
-  }
+  const auto add_all = [&](const auto& weights) {
+    for (std::size_t i = 0; i < particles.id.size(); ++i) {
+      const double v = closures::sphere_volume(particles.radius[i]);
+      const auto j = std::size_t(particles.species[i]);
+      for_each_cell(grid.dimensions, weights(particles.position[i]), [&](std::size_t at, double w) {
+        volume[j][at] += w * v;
+        for (std::size_t a = 0; a < std::size_t(grid.dimensions); ++a)
+          mean[j][a][at] += w * v * particles.velocity[i][a];
+      });
+    }
+  };
+  round != nullptr ? add_all(*round) : add_all(Weights(grid));
   for (std::size_t j = 0; j < species; ++j) {
+    per_open_volume(grid, volume[j]);
+    for (Field& component : mean[j]) per_open_volume(grid, component);
     if (smoothing.present()) smoothing.smooth_cells(volume[j]);
     for (std::size_t a = 0; a < std::size_t(grid.dimensions); ++a) {
       if (smoothing.present()) smoothing.smooth_cells(mean[j][a]);
@@ -68,6 +81,7 @@ FluidOutput::FluidOutput(const Coupling& coupling, std::vector<std::string> spec
     : species_(species.size()),
       smoothing_(core::whole_column(coupling.flow().grid()), coupling.kernel_width(),
                  coupling.flow().boundaries().closed()),
+      round_(coupling.gather().round()),
       fields_(directory, core::whole_column(coupling.flow().grid()),
               field_names(species, coupling.flow().compressible() != nullptr), resume_time) {}
 
@@ -80,7 +94,7 @@ void FluidOutput::write(double time, const Coupling::Column& column, const core:
   const core::Grid& grid = column.grid;
   const Field voidage = voidage_of(grid, column.fraction);
   const core::FaceField velocity = core::cell_means(grid, column.velocity);
-  const std::vector<core::FaceField> means = mean_velocities(grid, smoothing_, particles, species_);
+  const std::vector<core::FaceField> means = mean_velocities(grid, smoothing_, particles, species_, round_.get());
   std::vector<core::FieldValues> values{{voidage}, {column.pressure}, components(grid, velocity)};
   for (std::size_t j = 0; j < species_; ++j) {
     values.push_back({column.fraction[j]});

@@ -10,16 +10,16 @@
 #include "core/output/fields.hpp"
 #include "core/output/particles.hpp"
 #include "dem/coupling/coupling.hpp"
-#include "dem/coupling/weights.hpp"
 #include "fluid/smoothing.hpp"
 
 namespace polybed::dem {
 
 /// Mean velocity, m/s, of each species' particles in cells, [species][axis][cell]: sum w V U over sum w V, with the
 /// weights by which the fluid feels them, and smoothed as it feels them; 0 where there are none.
+/// \param round  weights of a round column; null: a box
 [[nodiscard]] std::vector<core::FaceField> mean_velocities(const core::Grid& grid, const fluid::Smoothing& smoothing,
-                                                           const core::ParticleSnapshot& particles,
-                                                           std::size_t species);
+                                                           const core::ParticleSnapshot& particles, std::size_t species,
+                                                           const RoundWeights* round = nullptr);
 
 /// On the first rank alone.
 class FluidOutput {
@@ -37,6 +37,7 @@ class FluidOutput {
  private:
   std::size_t species_;
   fluid::Smoothing smoothing_;
+  std::shared_ptr<const RoundWeights> round_;
   core::FieldWriter fields_;
 };
 

@@ -3,7 +3,7 @@
 namespace polybed::dem {
 
 Gather::Gather(const core::Grid& grid, std::vector<double> diameter)
-    : weights_(grid), diameter_(std::move(diameter)), width_(3 + diameter_.size()) {
+    : weights_(grid), diameter_(std::move(diameter)), width_(3 + diameter_.size()), round_(round_weights(grid)) {
   cells_.resize(grid.padded_size() * width_);
   for (int axis = 0; axis < grid.dimensions; ++axis) faces_[std::size_t(axis)].resize(grid.padded_size());
 }

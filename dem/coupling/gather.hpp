@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/numerics/field.hpp"
-#include "dem/coupling/weights.hpp"
+#include "dem/coupling/round_weights.hpp"
 #include "dem/several.hpp"
 
 namespace polybed::dem {
@@ -34,8 +34,20 @@ class Gather {
   /// omega in cells, 1/s, for effects that ask for it.
   void take_vorticity(const std::array<core::Field, 3>& vorticity);
 
+  /// Of a particle: lines in a box, else round shares.
+  template <bool round>
+  [[nodiscard]] auto shares(const Vector& x) const {
+    if constexpr (round)
+      return (*round_)(x);
+    else
+      return weights_(x);
+  }
   [[nodiscard]] Lines lines(const Vector& x) const { return weights_(x); }
-  [[nodiscard]] Surroundings solids(const Lines& lines, std::int32_t species) const {
+  /// Null in a box, else what shares<true> needs.
+  [[nodiscard]] const std::shared_ptr<const RoundWeights>& round() const { return round_; }
+
+  template <class Shares>
+  [[nodiscard]] Surroundings solids(const Shares& lines, std::int32_t species) const {
     Four sum{};  // the fourth is that of the first species
     for_each_cell(weights_.dimensions(), lines, [&](std::size_t at, double w) {
       Four first;
@@ -49,7 +61,8 @@ class Gather {
     return {sum[0], sum[1], sum[2], own};
   }
   /// sum phi_j/D_j^2, 1/m2, for drag laws that ask for it.
-  [[nodiscard]] double per_square(const Lines& lines) const {
+  template <class Shares>
+  [[nodiscard]] double per_square(const Shares& lines) const {
     double sum = 0;
     for_each_cell(weights_.dimensions(), lines, [&](std::size_t at, double w) {
       const double* fraction = cells_.data() + at * width_ + 3;
@@ -57,7 +70,8 @@ class Gather {
     });
     return sum;
   }
-  [[nodiscard]] Stream stream(const Lines& lines) const {
+  template <class Shares>
+  [[nodiscard]] Stream stream(const Shares& lines) const {
     Stream s;
     for (int axis = 0; axis < weights_.dimensions(); ++axis) {
       const auto a = std::size_t(axis);
@@ -71,7 +85,8 @@ class Gather {
     return s;
   }
   /// Only where it was taken.
-  [[nodiscard]] Vector vorticity(const Lines& lines) const {
+  template <class Shares>
+  [[nodiscard]] Vector vorticity(const Shares& lines) const {
     Vector omega{};
     for_each_cell(weights_.dimensions(), lines, [&](std::size_t at, double w) {
       for (std::size_t k = 0; k < 3; ++k) omega[k] += w * vorticity_[at][k];
@@ -79,7 +94,8 @@ class Gather {
     return omega;
   }
   /// Of one field on faces.
-  [[nodiscard]] Vector vector(const Lines& lines, const core::FaceField& field) const {
+  template <class Shares>
+  [[nodiscard]] Vector vector(const Shares& lines, const core::FaceField& field) const {
     Vector v{};
     for (int axis = 0; axis < weights_.dimensions(); ++axis) {
       const auto a = std::size_t(axis);
@@ -95,6 +111,7 @@ class Gather {
   std::vector<double> cells_;  ///< [cell]: phi, sum phi_j/D_j, sum phi_j D_j, phi_j of each species
   std::array<std::vector<std::array<double, 2>>, 3> faces_;  ///< [axis][face]: U_f, grad p
   std::vector<Vector> vorticity_;                            ///< [cell]; empty unless an effect asks for it
+  std::shared_ptr<const RoundWeights> round_;                ///< null: weights_ serve
 };
 
 }  // namespace polybed::dem

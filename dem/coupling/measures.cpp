@@ -1,6 +1,7 @@
 // What is measured of the fluid between particles.
 #include <algorithm>
 
+#include "core/numerics/metric.hpp"
 #include "core/numerics/ranks.hpp"
 #include "dem/coupling/coupling.hpp"
 
@@ -40,24 +41,22 @@ double Coupling::pressure_drop() const {
   const core::Grid& grid = flow_.grid();
   const double h = grid.spacing[1];
   const Field& p = flow_.state().pressure;
+  const double at_top = flow_.boundaries().closed() ? 1 : 0.5;  // p = 0 half a cell above an outlet
   double sum = 0;
-  const auto row = [&](int j, auto&& body) {
-    core::for_each_row(grid, {0, j, 0}, {grid.cells[0], j + 1, grid.cells[2]}, body);
-  };
-  for (const int side : {0, 1})
-    fluid::for_each_boundary_row(grid, 1, side, [&](Index begin, Index end) {
-      for (auto c = std::size_t(begin); c < std::size_t(end); ++c) sum += h * at_ends_[c];
-    });
-  if (grid.ends(1, 0))
-    row(0, [&](Index begin, Index end) {
-      for (auto c = std::size_t(begin); c < std::size_t(end); ++c) sum += p[c];
-    });
-  const double share = flow_.boundaries().closed() ? 1 : 0.5;  // p = 0 half a cell above an outlet
-  if (grid.ends(1, 1))
-    row(grid.cells[1] - 1, [&](Index begin, Index end) {
-      for (auto c = std::size_t(begin); c < std::size_t(end); ++c) sum -= share * p[c];
-    });
-  return core::sum_of_ranks(grid, sum) / (double(grid.column_cells(0)) * grid.column_cells(2));
+  core::with_metric(grid, [&](const auto& metric) {
+    const auto add_row = [&](int j, double share) {
+      core::for_each_row(grid, {0, j, 0}, {grid.cells[0], j + 1, grid.cells[2]}, [&](Index begin, Index end) {
+        for (Index c = begin; c < end; ++c) sum += share * metric.volume(c) * p[std::size_t(c)];
+      });
+    };
+    for (const int side : {0, 1})
+      fluid::for_each_boundary_row(grid, 1, side, [&](Index begin, Index end) {
+        for (Index c = begin; c < end; ++c) sum += h * metric.open(1, c) * at_ends_[std::size_t(c)];
+      });
+    if (grid.ends(1, 0)) add_row(0, 1);
+    if (grid.ends(1, 1)) add_row(grid.cells[1] - 1, -at_top);
+  });
+  return core::sum_of_ranks(grid, sum) / core::open_cells_of_layer(grid);
 }
 
 }  // namespace polybed::dem

@@ -35,26 +35,32 @@ void ParticleForces::find(const Particles& particles, const Gather& gather, std:
   for (std::size_t begin = 0; begin < particles.owned; begin += Batch::most) {
     const std::size_t count = std::min(Batch::most, particles.owned - begin);
     const Asked asked{particles, gather, own, wake_ ? &*wake_ : nullptr, diameter_, needs_squares_};
-    core::in_vectors<see>(asked, begin, count, loads.data() + begin, batch_);
+    if (gather.round())
+      core::in_vectors<see<true>>(asked, begin, count, loads.data() + begin, batch_);
+    else
+      core::in_vectors<see<false>>(asked, begin, count, loads.data() + begin, batch_);
     clamped_ += core::in_vectors<average>(count, batch_);
     if (laws_.added_mass != nullptr) add_mass(count, loads.data() + begin);
     if (laws_.drag) drag(particles, begin, count, loads);
   }
 }
 
-/// The fields where the particles are.
+/// The fields where the particles are. A rule leaves `own` to boxes; a wake in a round column is as wide as in a box.
+template <bool round>
 void ParticleForces::see(const Asked& asked, std::size_t begin, std::size_t count, FluidLoad* loads, Batch& batch) {
   const auto& [particles, gather, own, wake, diameter, needs_squares] = asked;
   for (std::size_t n = 0; n < count; ++n) {
     const std::size_t i = begin + n;
     const std::int32_t species = particles.species[i];
     const double d = diameter[std::size_t(species)], volume = closures::sphere_volume(0.5 * d);
-    const Lines lines = gather.lines(particles.place[i].x);
+    const auto lines = gather.shares<round>(particles.place[i].x);
     Surroundings solids = gather.solids(lines, species);
-    if (own != nullptr) solids = own->without(solids, lines, species);
-    if (needs_squares) {
-      const double seen = gather.per_square(lines);
-      batch.per_square[n] = own == nullptr ? seen : own->per_square_without(seen, lines, species);
+    if (needs_squares) batch.per_square[n] = gather.per_square(lines);
+    if constexpr (!round) {
+      if (own != nullptr) {
+        solids = own->without(solids, lines, species);
+        if (needs_squares) batch.per_square[n] = own->per_square_without(batch.per_square[n], lines, species);
+      }
     }
     const Stream stream = gather.stream(lines);
     FluidLoad& load = loads[n];
@@ -65,7 +71,12 @@ void ParticleForces::see(const Asked& asked, std::size_t begin, std::size_t coun
       const double slip = stream.velocity[k] - particles.motion[i].v[k];
       squares[k] = slip * slip;
     }
-    if (wake != nullptr) batch.spread[n] = wake->spread(lines, squares);
+    if (wake != nullptr) {
+      if constexpr (round)
+        batch.spread[n] = wake->spread(gather.lines(particles.place[i].x), squares);
+      else
+        batch.spread[n] = wake->spread(lines, squares);
+    }
     batch.fraction[n] = solids.fraction;
     batch.per_mean[n] = solids.per_mean;
     batch.average[n] = solids.average;

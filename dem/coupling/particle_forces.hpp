@@ -53,6 +53,7 @@ class ParticleForces {
     const std::vector<double>& diameter;
     bool needs_squares;
   };
+  template <bool round>
   static void see(const Asked& asked, std::size_t begin, std::size_t count, FluidLoad* loads, Batch& batch);
   static std::uint64_t average(std::size_t count, Batch& batch);
   void add_mass(std::size_t count, FluidLoad* loads) const;

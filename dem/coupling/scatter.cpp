@@ -5,6 +5,7 @@
 #include <type_traits>
 
 #include "closures/sphere.hpp"
+#include "core/numerics/metric.hpp"
 #include "core/vectors.hpp"
 
 namespace polybed::dem {
@@ -19,7 +20,8 @@ Scatter::Scatter(const core::Grid& grid, const core::Grid& block, const Material
       species_(materials.species()),
       count_(added_mass ? carry_flux + 1 : yield + 1),
       of_axis_(4 * fours(count_)),
-      width_(std::size_t(grid.dimensions) * of_axis_ + species_.size()) {
+      width_(std::size_t(grid.dimensions) * of_axis_ + species_.size()),
+      round_(round_weights(grid)) {
   double lightest = species_.front().density, heaviest = lightest;
   for (const Species& s : species_) {
     lightest = std::min(lightest, s.density);
@@ -36,17 +38,25 @@ Scatter::Scatter(const core::Grid& grid, const core::Grid& block, const Material
 
 void Scatter::collect(const Particles& particles, const std::vector<FluidLoad>& loads, double dt) {
   std::fill(sums_.begin(), sums_.end(), 0);
-  const auto all = [&](const auto count) {
+  with_count([&](const auto count, const auto round) {
     if (top_)
-      core::in_vectors<add_moving<count(), true>>(*this, particles, loads, dt);
+      core::in_vectors<add_moving<count(), true, round()>>(*this, particles, loads, dt);
     else
-      core::in_vectors<add_moving<count(), false>>(*this, particles, loads, dt);
-  };
-  count_ > yield + 1 ? all(std::integral_constant<std::size_t, carry_flux + 1>())
-                     : all(std::integral_constant<std::size_t, yield + 1>());
+      core::in_vectors<add_moving<count(), false, round()>>(*this, particles, loads, dt);
+  });
 }
 
-template <std::size_t count, bool open>
+/// Calls with the number of sums and whether the column is round, constants of the compiler.
+template <class Act>
+void Scatter::with_count(Act&& act) const {
+  const auto counted = [&](const auto round) {
+    count_ > yield + 1 ? act(std::integral_constant<std::size_t, carry_flux + 1>(), round)
+                       : act(std::integral_constant<std::size_t, yield + 1>(), round);
+  };
+  round_ ? counted(std::true_type()) : counted(std::false_type());
+}
+
+template <std::size_t count, bool open, bool round>
 void Scatter::add_moving(Scatter& sums, const Particles& particles, const std::vector<FluidLoad>& loads, double dt) {
   for (std::size_t i = 0; i < particles.owned; ++i) {
     const Place& place = particles.place[i];
@@ -61,42 +71,40 @@ void Scatter::add_moving(Scatter& sums, const Particles& particles, const std::v
                       std::size_t(particles.species[i])};
     if constexpr (open) {
       if (sums.top_->cuts(place)) {
-        sums.add_cut<count>(place, given);
+        sums.add_cut<count, round>(place, given);
         continue;
       }
     }
-    sums.add<count>(sums.weights_(place.x), given);
+    sums.add<count>(sums.shares<round>(place.x), given);
   }
 }
 
 /// All that it gives, in the share that is inside: the fluid beyond the top takes the rest.
-template <std::size_t count>
+template <std::size_t count, bool round>
 void Scatter::add_cut(const Place& place, Given given) {
   const double share = top_->inside(place);
   given.volume *= share;
   for (double& amount : given.same) amount *= share;
   for (double& component : given.impulse) component *= share;
-  Lines lines = weights_(place.x);
-  top_->drop_beyond(place, lines);
-  add<count>(lines, given);
+  auto kept = shares<round>(place.x);
+  top_->drop_beyond(place, upright_faces(kept));
+  add<count>(kept, given);
 }
 
 void Scatter::collect_held(const core::Ranks* ranks, const Particles& particles, const std::vector<FluidLoad>& loads,
                            double dt) {
   fit_units(ranks, loads, dt);
   std::fill(sums_.begin(), sums_.end(), 0);
-  const auto add_all = [&](const auto count) {
+  with_count([&](const auto count, const auto round) {
     for (std::size_t i = 0; i < particles.owned; ++i) {
       const Place& place = particles.place[i];
-      add<count()>(weights_(place.x), {closures::sphere_volume(place.radius),
-                                       {loads[i].drag * dt, 0, 0, 0, 0, 0},
-                                       {},
-                                       loads[i].impulse,
-                                       std::size_t(particles.species[i])});
+      add<count()>(shares<round()>(place.x), {closures::sphere_volume(place.radius),
+                                              {loads[i].drag * dt, 0, 0, 0, 0, 0},
+                                              {},
+                                              loads[i].impulse,
+                                              std::size_t(particles.species[i])});
     }
-  };
-  count_ > yield + 1 ? add_all(std::integral_constant<std::size_t, carry_flux + 1>())
-                     : add_all(std::integral_constant<std::size_t, yield + 1>());
+  });
 }
 
 /// No mass bounds what held particles take in a step: units that hold the greatest of each, times their number, which
@@ -115,8 +123,8 @@ void Scatter::fit_units(const core::Ranks* ranks, const std::vector<FluidLoad>& 
   if (most_impulse > 0) unit_[Sum::impulse] = FixedPoint::for_sums_of(most_impulse, number[0]);
 }
 
-template <std::size_t count>
-void Scatter::add(const Lines& lines, const Given& given) {
+template <std::size_t count, class Shares>
+void Scatter::add(const Shares& shares, const Given& given) {
   const double v = given.volume;
   // Copies, as for all that the compiler knows a sum that is written may be a member.
   std::int64_t* const sums = sums_.data();
@@ -131,13 +139,13 @@ void Scatter::add(const Lines& lines, const Given& given) {
     const auto a = std::size_t(axis);
     set(flux, v * given.velocity[a]);
     set(Sum::impulse, given.impulse[a]);
-    for_each_face(dimensions, lines, axis, [&](std::size_t at, double w) {
+    for_each_face(dimensions, shares, axis, [&](std::size_t at, double w) {
       std::int64_t* sum = sums + at * width + a * 4 * many;
       for (std::size_t n = 0; n < many; ++n) add_whole(w * units[n], sum + 4 * n);
     });
   }
   const std::size_t cell = std::size_t(dimensions) * 4 * many + given.species;
-  for_each_cell(dimensions, lines,
+  for_each_cell(dimensions, shares,
                 [&](std::size_t at, double w) { sums[at * width + cell] += std::int64_t(w * units[0][0]); });  // volume
 }
 
@@ -166,10 +174,12 @@ void Scatter::give(const core::Ranks* ranks, const GridExchange* exchange, bool 
   std::fill(phase.voidage.begin(), phase.voidage.end(), 1.0);
   for (std::size_t j = 0; j < species_.size(); ++j) {
     const std::size_t cell = std::size_t(grid_.dimensions) * of_axis_ + j;
-    for (std::size_t c = 0; c < block_.padded_size(); ++c) {
-      fraction[j][c] = double(sums[c * width_ + cell]) * unit;
-      phase.voidage[c] -= fraction[j][c];
-    }
+    core::with_metric(block_, [&](const auto& metric) {
+      for (std::size_t c = 0; c < block_.padded_size(); ++c) {
+        fraction[j][c] = double(sums[c * width_ + cell]) * unit * metric.per_volume(core::Index(c));
+        phase.voidage[c] -= fraction[j][c];
+      }
+    });
   }
   give_faces(sums, open_top, phase);
 }
@@ -187,8 +197,11 @@ void Scatter::give_faces(std::span<const std::int64_t> sums, bool open_top, flui
       field[q] = (*fields[q])[a].data();
       unit[q] = unit_[q].unit * per_cell;
     }
-    for (std::size_t c = 0; c < block_.padded_size(); ++c)
-      for (std::size_t q = 0; q < count_; ++q) field[q][c] = double(sums[c * width_ + a * of_axis_ + q]) * unit[q];
+    core::with_metric(block_, [&](const auto& metric) {
+      for (std::size_t c = 0; c < block_.padded_size(); ++c)
+        for (std::size_t q = 0; q < count_; ++q)
+          field[q][c] = double(sums[c * width_ + a * of_axis_ + q]) * unit[q] * metric.per_volume_on(a, core::Index(c));
+    });
     // The faces of the outlet stand for half a cell.
     if (axis == 1 && open_top && block_.ends(1, 1))
       core::for_each_row(block_, {0, block_.cells[1], 0}, {block_.cells[0], block_.cells[1] + 1, block_.cells[2]},
@@ -196,8 +209,10 @@ void Scatter::give_faces(std::span<const std::int64_t> sums, bool open_top, flui
                            for (std::size_t q = 0; q < count_; ++q)
                              for (auto c = std::size_t(begin); c < std::size_t(end); ++c) (*fields[q])[1][c] *= 2;
                          });
-    for (double& eps : phase.voidage_on[a]) eps = 1 - eps;
   }
+  for (std::size_t q = 0; q < count_; ++q) core::hold_closed(block_, *fields[q]);
+  for (Field& component : phase.voidage_on)
+    for (double& eps : component) eps = 1 - eps;
 }
 
 }  // namespace polybed::dem

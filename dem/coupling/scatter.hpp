@@ -9,7 +9,7 @@
 #include "core/numerics/ranks.hpp"
 #include "dem/coupling/fluid_motion.hpp"
 #include "dem/coupling/open_top.hpp"
-#include "dem/coupling/weights.hpp"
+#include "dem/coupling/round_weights.hpp"
 #include "dem/parallel/grid_exchange.hpp"
 #include "fluid/particle_phase.hpp"
 
@@ -29,7 +29,8 @@ class Scatter {
   /// The same of a fixed bed, whose particles take drag and do not move. Collective.
   void collect_held(const core::Ranks* ranks, const Particles& particles, const std::vector<FluidLoad>& loads,
                     double dt);
-  /// Collective: sums over all ranks, per volume of a cell. \param open_top  the faces at the top move
+  /// Collective: sums over all ranks, per open volume of a cell or of a face's momentum; on faces that a round wall
+  /// closes as without particles. \param open_top  the faces at the top move
   /// \param exchange  with the owners of the blocks; null: every rank has the whole column
   void give(const core::Ranks* ranks, const GridExchange* exchange, bool open_top, fluid::ParticlePhase& phase,
             std::vector<core::Field>& fraction);
@@ -48,12 +49,22 @@ class Scatter {
     Vector velocity, impulse;
     std::size_t species;
   };
-  template <std::size_t count, bool open>
+  /// Those of a particle: lines in a box, else round ones.
+  template <bool round>
+  [[nodiscard]] auto shares(const Vector& x) const {
+    if constexpr (round)
+      return (*round_)(x);
+    else
+      return weights_(x);
+  }
+  template <std::size_t count, bool open, bool round>
   static void add_moving(Scatter& sums, const Particles& particles, const std::vector<FluidLoad>& loads, double dt);
-  template <std::size_t count>
-  void add(const Lines& lines, const Given& given);
-  template <std::size_t count>
+  template <std::size_t count, class Shares>
+  void add(const Shares& shares, const Given& given);
+  template <std::size_t count, bool round>
   void add_cut(const Place& place, Given given);
+  template <class Act>
+  void with_count(Act&& act) const;
   void add_up(const core::Ranks* ranks);
   void give_faces(std::span<const std::int64_t> sums, bool open_top, fluid::ParticlePhase& phase) const;
 
@@ -61,10 +72,11 @@ class Scatter {
   Weights weights_;
   std::optional<OpenTop> top_;  ///< absent: no particle passes the top
   std::vector<Species> species_;
-  std::size_t count_;                        ///< sums on a face: the first of them
-  std::size_t of_axis_, width_;              ///< their places on a face, and on all faces and in the cell of an entry
-  std::vector<FixedPoint> unit_;             ///< of each
-  std::vector<std::int64_t> sums_, shared_;  ///< [entry][axis, place; species]; of the column, and of a block
+  std::size_t count_;                          ///< sums on a face: the first of them
+  std::size_t of_axis_, width_;                ///< their places on a face, and on all faces and in the cell of an entry
+  std::vector<FixedPoint> unit_;               ///< of each
+  std::vector<std::int64_t> sums_, shared_;    ///< [entry][axis, place; species]; of the column, and of a block
+  std::shared_ptr<const RoundWeights> round_;  ///< null: weights_ serve
 };
 
 }  // namespace polybed::dem

@@ -33,8 +33,11 @@ bool SideForces::has_inertia() const {
 SideView SideForces::look(const Particles& particles, const Gather& gather, std::vector<FluidLoad>& loads) {
   if (needs_vorticity_) {
     vorticity_.resize(particles.owned);
-    for (std::size_t i = 0; i < particles.owned; ++i)
-      vorticity_[i] = gather.vorticity(gather.lines(particles.place[i].x));
+    const auto see = [&](const auto round) {
+      for (std::size_t i = 0; i < particles.owned; ++i)
+        vorticity_[i] = gather.vorticity(gather.shares<round()>(particles.place[i].x));
+    };
+    gather.round() ? see(std::true_type()) : see(std::false_type());
   }
   return {particles, loads, vorticity_};
 }

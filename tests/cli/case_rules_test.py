@@ -5,7 +5,7 @@ import re
 import program
 from feed_rules import FEEDS, feeds
 from layer_rules import COUNTED, LAYERS
-from wall_rules import ROUND, ROUND_CONTINUUM, ROUND_FOR_ONE_MODEL, WALLS
+from wall_rules import ROUND, ROUND_FOR_ONE_MODEL, ROUND_OF_MODELS, WALLS
 from program import DONE, WRONG_CASE, Scratch, run, strict_json
 
 BED = """[column]
@@ -178,7 +178,7 @@ ONE_MODEL = {
 # For each rule that the program lists what breaks it, in words of --set. {} stands for a word of the scene.
 BROKEN = {
     **KEYS,
-    **ROUND_CONTINUUM,
+    **ROUND_OF_MODELS,
     **{f'effects.{role} = "{{}}" cannot act: fluid.name = "none"': [DRY, on(role)] for role in LAWS},
     **{f"effects.{role} cannot act in a sheared box: its fluid moves with its flow": ["dem.shear_rate=1", on(role)]
        for role in ("fluid_stress", "added_mass", "lift", "magnus", "history")},

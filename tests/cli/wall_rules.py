@@ -18,6 +18,8 @@ WALLS = {
     'column.depth and column.shape = "axisymmetric" contradict each other: leave column.depth out': [AROUND, "column.depth=0.01"],
     'column.sides = "periodic" and column.shape = "{}" contradict each other: use column.sides = "wall"': [
         *ROUND, "column.sides=periodic"],
+    'column.shape = "{}" and a compressible fluid cannot be combined yet; use fluid.equation_of_state = "incompressible"': [
+        *ROUND, "fluid.equation_of_state=tait"],
     "[[layer]] number {} has corners, a round column has none: leave layer.from and layer.to out": [
         *ROUND, *COUNTED, layers(FINE + ", from=[0.02, 0.02], to=[0.04, 0.04]")],
     "[[feed]] of {} reaches beyond the round column, {} m in diameter: move feed.from and feed.to inwards, or leave them out": [
@@ -38,15 +40,13 @@ WALLS = {
     "[[wall]]: a cone or cylinder needs three dimensions; give column.size three numbers": [wall([0.02, 0.01], [0.04, 0.05], "cone")],
 }
 
-# Of the two-fluid model, and of one model alone.
-ROUND_CONTINUUM = {
+# Of one model.
+ROUND_OF_MODELS = {
     'column.shape = "{}" and tfm.solids_wall = "{}" cannot be combined yet: the solids slip freely along round walls': [
         AROUND, "tfm.solids_wall=johnson_jackson"],
-    'column.shape = "{}" and a compressible fluid cannot be combined yet; use fluid.equation_of_state = "incompressible"': [
-        AROUND, "fluid.equation_of_state=tait"],
+    'column.shape = "cylinder" and dem.own_share = "removed" cannot be combined yet; use dem.own_share = "kept"': [
+        *ROUND, "dem.own_share=removed"],
 }
 ROUND_FOR_ONE_MODEL = {
     'column.shape = "axisymmetric": polybed tfm can run it, polybed dem cannot: particles go around the axis; use "cylinder"': [AROUND],
-    'column.shape = "cylinder" with a fluid: polybed tfm can run it, polybed dem cannot: its particles know round columns, its fluid does '
-    'not yet; use column.shape = "box", or fluid.name = "none"': ROUND,
 }
