@@ -42,6 +42,9 @@ every = "5 ms"
 history_every = "0.5 ms"
 checkpoint_every = "5 ms"
 """
+# 3150 of them in a tube, whose wall cuts the cells.
+ROUND = [word for setting in ("column.shape=cylinder", "column.size=[0.018,0.018,0.06]", "column.cells=[6,6,20]",
+                              "bed.particles=[3000,150]") for word in ("--set", setting)]
 FILES = ("fields.h5", "particles.h5", "profiles.h5", "checkpoint.h5")
 
 
@@ -95,6 +98,21 @@ class FluidOnRanks(Scratch):
         for name in FILES[:3]:
             self.assertEqual(same_bits(whole / name, parted / name), [], name)
         self.assertEqual(self.record(whole), self.record(parted))
+
+    def test_a_round_column_stores_the_same_on_several_ranks_and_after_a_restart(self):
+        one, each, shared, parted = (self.folder / name for name in ("round", "each", "shared", "parted"))
+        self.on(1, *ROUND, "-o", one)
+        self.on(2, *ROUND, "-o", each)
+        self.on(2, *ROUND, "-o", parted, "--until", "5 ms")
+        self.on(2, *ROUND, "-o", parted, "--resume")
+        for name in FILES[:3]:
+            self.assertEqual(same_bits(one / name, each / name), [], name)
+            self.assertEqual(same_bits(one / name, parted / name), [], name)
+        self.on(2, *ROUND, "-o", shared, "--set", "dem.fluid_ranks=shared")
+        self.assertEqual(self.record(shared)["ranks"], "shared")
+        ours, other = datasets(one / "fields.h5"), datasets(shared / "fields.h5")
+        for path, values in ours.items():
+            np.testing.assert_allclose(other[path], values, rtol=0, atol=1e-6 * max(np.abs(values).max(), 1e-12), err_msg=path)
 
     def check_particles(self, found, ranks):
         """What each step's pressure lets go wrong with a particle is 1e-8 of what the fluid does to it in that step, so that

@@ -10,6 +10,7 @@
 #include <random>
 
 #include "core/numerics/halo.hpp"
+#include "core/numerics/metric.hpp"
 #include "core/numerics/operators.hpp"
 
 namespace polybed::fluid {
@@ -271,6 +272,61 @@ TEST(Smoothing, KeepsTheFirstMomentOfTheDivergenceOnFaces) {
   EXPECT_NEAR(dot(grid, box, ones, faces), 0, 108 * round_off);
   EXPECT_NEAR(dot(grid, box, height, faces), dot(grid, box, height, before), 12 * 108 * round_off);
   EXPECT_GT(std::abs(dot(grid, box, height, cells) - dot(grid, box, height, before)), 1);
+}
+
+/// Open volume of what is smoothed at an entry of a round column; 0 where it is held.
+double open_volume(const core::Grid& grid, const Place& place, std::size_t c) {
+  const core::Metric& metric = *grid.metric;
+  if (place.axis < 0) return metric.volume[c];
+  const auto a = std::size_t(place.axis);
+  return metric.open[a][c] > 0 ? 1 / metric.per_volume_on[a][c] : 0;
+}
+
+// Weighed by open volumes: the sum stays, and the operator is its own transpose, though its axes do not commute.
+TEST(Smoothing, OfARoundColumnIsConservativeAndSymmetricByVolume) {
+  for (const auto& cells : {std::array{4, 4}, {9, 9}, {8, 12}})
+    for (const bool closed : {true, false}) {
+      core::Grid grid = grid_of({"", 3, {cells[0], 7, cells[1]}, {}, 0, closed});
+      grid.spacing = {1, 1.5, double(cells[0]) / cells[1]};
+      grid.metric = core::metric_of(grid, core::ColumnShape::cylinder);
+      const Smoothing smoothing(grid, 4, closed);
+      for (const Place& place : places(grid, closed)) {
+        Field volume = core::make_field(grid), constant = volume, a = volume, b = volume;
+        std::mt19937 engine(7);
+        std::uniform_real_distribution<double> draw(0, 1);
+        for_each_entry(grid, place.box, [&](std::size_t c) {
+          volume[c] = open_volume(grid, place, c);
+          if (!(volume[c] > 0)) return;
+          a[c] = draw(engine);
+          b[c] = draw(engine);
+          constant[c] = 0.7;
+        });
+        Field smooth_a = a, smooth_b = b, weighed = a, smooth_weighed;
+        smooth(smoothing, place, smooth_a);
+        smooth(smoothing, place, smooth_b);
+        smooth(smoothing, place, constant);
+        smooth_weighed = smooth_a;
+        for_each_entry(grid, place.box, [&](std::size_t c) {
+          weighed[c] *= volume[c];
+          smooth_weighed[c] *= volume[c];
+          EXPECT_NEAR(constant[c], volume[c] > 0 ? 0.7 : 0, round_off);
+          EXPECT_EQ(smooth_a[c] > 0, volume[c] > 0);
+        });
+        const double sum = dot(grid, place.box, volume, a);
+        EXPECT_NEAR(dot(grid, place.box, volume, smooth_a), sum, round_off * sum);
+        EXPECT_NEAR(dot(grid, place.box, weighed, smooth_b), dot(grid, place.box, smooth_weighed, b), round_off * sum);
+      }
+    }
+}
+
+// Entries of volume 1, 2 and 4, with faces of 1 and 3 between: (V + L) x = V b by hand, for b = (1, 0, 0). V + L is
+// ((2, -1, 0), (-1, 6, -3), (0, -3, 7)), of determinant 59.
+TEST(LineDiffusion, SolvesOneStepBetweenUnequalEntries) {
+  std::vector<double> tile(std::size_t(3 * LineDiffusion::lanes), 0.0);
+  tile[0] = 1;
+  LineDiffusion({1, 2, 4}, {0, 1, 3}, 1, 1).apply(tile.data());
+  const std::array<double, 3> expected{33.0 / 59, 7.0 / 59, 3.0 / 59};
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(tile[i * LineDiffusion::lanes], expected[i], 1e-15);
 }
 
 // By hand, one step with lambda = 1: inverses of ((2, -1), (-1, 2)), of ((3, -2), (-2, 3)), where two cells meet on
