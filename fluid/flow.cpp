@@ -104,7 +104,7 @@ FlowStep Flow::advance(double t, double dt, const ParticlePhase& particles) {
         fmt::format("t = {:.6g} s: the fluid{} {:.3g} cells in its step of {:.3g} s; {}", t + dt,
                     viscous ? "'s viscosity carries its motion over" : " moves by", step.courant, dt,
                     viscous ? "use larger cells, a smaller dem.fixed_step, or effects.fluid_stress = \"none\""
-                            : "lower dem.fluid_every"));
+                            : "lower dem.fluid_every; where it is 1, take larger cells or a smaller dem.fixed_step"));
   }
   return step;
 }

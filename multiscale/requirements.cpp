@@ -43,7 +43,9 @@ void draw_in(core::Scene& scene, std::size_t axis, int cells) {
     part.to[direction] *= share;
   };
   for (core::Jet& jet : scene.jets) draw(jet);
+  for (core::Feed& feed : scene.feeds) draw(feed);
   for (core::Layer& layer : scene.layers) draw(layer);
+  column.outlet = core::Outlet::screen;  // one that is left of a few cells may be fed shut
 }
 
 int fewer(int cells, double share, int least) {

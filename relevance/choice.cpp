@@ -19,6 +19,12 @@ DecisionRule rule_of_case(const core::Scene& scene, const Menu& menu) {
   return rule;
 }
 
+/// Whether the rules of an effect let a scene have it: what acts in general may not act in a sheared box.
+bool may_have(core::Scene scene, const Effect& effect, const std::string& law) {
+  scene.effects[effect.role] = law;
+  return core::problems_of(effect.rules, scene).empty();
+}
+
 }  // namespace
 
 bool has_auto(const core::Scene& scene) {
@@ -52,7 +58,8 @@ core::Scene with_choice(core::Scene scene, const Menu& menu) {
     if (core::law_of(scene, role) != core::automatic) continue;
     scene.chooser.chosen.push_back(role);
     const EffectRow* row = find_row(choice.of_case, role);
-    const bool on = row != nullptr && row->state == EffectRow::State::on && row->not_built.empty();
+    const bool on = row != nullptr && row->state == EffectRow::State::on && row->not_built.empty() &&
+                    may_have(scene, *entry.effect, row->model);
     if (on && entry.effect->set_keys) entry.effect->set_keys(scene, choice.surfaces);
     on ? void(scene.effects[role] = row->model) : void(scene.effects.erase(role));
   }

@@ -1,8 +1,11 @@
-// What a column requires: its axes, gravity, joined ends, and the flow of a sheared box; and the list of all rules.
+// What a column requires: its axes, gravity, joined ends, and the flow of a sheared box; times of output; and the list
+// of all rules.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
+#include <optional>
+#include <string>
 
 #include "core/case/case_rules.hpp"
 #include "core/case/resolve.hpp"
@@ -139,11 +142,28 @@ std::vector<Rule> shear_rules() {
            }}};
 }
 
+/// Files without end, and times that floating point cannot tell apart.
+Rule countable(const std::string& key, std::optional<double> OutputPlan::*every) {
+  constexpr double most = 1e7;
+  return {{"output." + key, "run.until"},
+          "output." + key + " = {} s: {} times until run.until = {} s; at most 1e7: take a longer one",
+          [every](const Scene& scene) {
+            const double until = scene.run.until, step = (scene.output.*every).value_or(until);
+            if (!(until > most * step)) return Broken();
+            return Broken({fmt::format("{:g}", step), fmt::format("{:.2g}", until / step), fmt::format("{:g}", until)});
+          }};
+}
+
+std::vector<Rule> time_rules() {
+  return {countable("every", &OutputPlan::every), countable("history_every", &OutputPlan::history_every),
+          countable("checkpoint_every", &OutputPlan::checkpoint_every)};
+}
+
 }  // namespace
 
 std::vector<Rule> column_rules() {
   std::vector<Rule> rules;
-  for (const auto& part : {axis_rules(), gravity_rules(), end_rules(), shear_rules()})
+  for (const auto& part : {axis_rules(), gravity_rules(), end_rules(), shear_rules(), time_rules()})
     rules.insert(rules.end(), part.begin(), part.end());
   return rules;
 }

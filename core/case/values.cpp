@@ -126,6 +126,12 @@ std::optional<double> CaseValues::number(const Key& key, const toml::node& node)
     expected(key, node, "a number, or a text with a unit");
     return std::nullopt;
   }
+  constexpr double least_meant = 1e-100;
+  if (q.value != 0 && std::abs(q.value) < least_meant) {
+    add(node.source(), fmt::format("{} = {} is too small to be meant: give 0, or at least {:g}", key.path(),
+                                   shown(node), least_meant));
+    return std::nullopt;
+  }
   const auto& [least, most, above_least] = key.range;
   const bool low = above_least ? !(q.value > least) : !(q.value >= least);
   if (!std::isfinite(q.value) || low || q.value > most) {

@@ -19,7 +19,11 @@ bool is_later(double a, double b) { return a > b && !same_time(a, b); }
 double next_multiple(double every, double time) {
   if (!(every > 0)) return std::numeric_limits<double>::infinity();
   double count = std::floor(time / every);
-  while (!is_later(count * every, time)) ++count;
+  while (!is_later(count * every, time)) {
+    const double next = count + 1;
+    if (next == count) return std::numeric_limits<double>::infinity();  // too many to be counted
+    count = next;
+  }
   return count * every;
 }
 

@@ -14,7 +14,9 @@ namespace polybed::relevance::effects {
 inline std::optional<EffectRow> weigh_granular_temperature(const Weighing& by, EffectRow row) {
   row.threshold = by.scene.chooser.tolerance;
   const EffectRow* stress = find_row(by.rows, "solids_stress");
-  if (stress == nullptr || !solids_stress.law_has(stress->model, kinetic_theory)) {
+  const std::string given = core::law_of(by.scene, "solids_stress");
+  const std::string law = given == core::automatic && stress != nullptr ? stress->model : given;
+  if (!solids_stress.law_has(law, kinetic_theory)) {
     row.neglected = 0;
     row.reason = "acts with solids_stress = \"kinetic\" alone";
     return row;
