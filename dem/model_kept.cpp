@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "core/error.hpp"
+#include "dem/invariants.hpp"
 #include "dem/kept_sums.hpp"
 #include "dem/model.hpp"
 #include "dem/parallel/ordered_rows.hpp"
@@ -25,6 +26,8 @@ std::vector<core::BlockData> Model::rows() const {
 core::Checkpoint Model::checkpoint_but_rows() const {
   core::Checkpoint checkpoint;
   checkpoint.integers["memory_size"] = pairs_.memory_size;
+  const std::vector<std::int64_t> numbers = numbers_of(*this);
+  checkpoint.arrays[core::particle_numbers].assign(numbers.begin(), numbers.end());
   write_clock(
       {double(steps_), limits_.dt, reported_, began_, double(began_at_), limits_.greatest_speed,
        core::greatest_of_ranks(ranks_.get(), met_), box_.strain_before + box_.shear_rate * clock(), box_.strain_before},

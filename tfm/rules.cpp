@@ -139,7 +139,9 @@ const std::vector<core::Rule>& model_rules() {
        std::string("bed.start = \"{}\"") + only_particles,
        [](const Scene& s) {
          const StartKind kind = s.bed.start.kind;
-         return kind == StartKind::random || kind == StartKind::list ? Broken({text_of(s.bed.start)}) : Broken();
+         const bool counted = kind == StartKind::checkpoint && !(s.bed.solids_fraction > 0);  // of particles alone
+         return kind == StartKind::random || kind == StartKind::list || counted ? Broken({text_of(s.bed.start)})
+                                                                                : Broken();
        }},
       for_leaning_particles("column.shape", "in a round column",
                             [](const Scene& s) { return s.column.shape != core::ColumnShape::box; }),

@@ -10,11 +10,28 @@
 #include "core/case/removed.hpp"
 #include "core/case/resolve.hpp"
 #include "core/case/values.hpp"
+#include "core/output/checkpoint.hpp"
 #include "core/output/files.hpp"
 
 namespace polybed::core {
 
 namespace {
+
+/// Particles of each species in the checkpoint that a bed starts from: it has the bed. Empty for any other start, and
+/// where the checkpoint is not there yet, is damaged or does not say so: then the case has to.
+std::vector<std::int64_t> counted_in_checkpoint(const Start& start) {
+  if (start.kind != StartKind::checkpoint) return {};
+  std::vector<std::int64_t> numbers;
+  try {
+    for (const double number : read_array(start.file, particle_numbers)) {
+      if (!(number >= 0 && number < 9e15)) return {};
+      numbers.push_back(std::int64_t(number));
+    }
+  } catch (const FileError&) {
+    return {};
+  }
+  return numbers;
+}
 
 /// One reading of a case: the scene as it grows, and the problems found so far.
 class CaseReader {
@@ -177,15 +194,21 @@ class CaseReader {
     const bool by_layers = given("layer");
     if (!scene_.layers.empty() && !given("bed.start")) scene_.bed.start.kind = StartKind::layered;
     const bool by_particles = given("bed.particles"), list = scene_.bed.start.kind == StartKind::list;
+    const bool unsaid = !by_layers && !by_particles && !given("bed.volume_share") && !given("bed.static_height");
+    if (unsaid && wrong_.sound("bed.start")) scene_.bed.particles = counted_in_checkpoint(scene_.bed.start);
+    const bool counted = !scene_.bed.particles.empty();
     for (const char* key : {"bed.volume_share", "bed.static_height"}) {
       if (by_particles && given(key))
         add({"bed.particles"}, fmt::format("{} and bed.particles both say how much there is: give one", key));
-      if (by_layers || by_particles || given(key) || list || !wrong_.sound({key, "bed.start"})) continue;
-      add({key}, fmt::format("{} is missing (or give bed.particles, or [[layer]])", key));
+      if (by_layers || by_particles || counted || given(key) || list || !wrong_.sound({key, "bed.start"})) continue;
+      add({key}, fmt::format("{} is missing (or give bed.particles, or [[layer]]){}", key,
+                             scene_.bed.start.kind == StartKind::checkpoint
+                                 ? "; the checkpoint that the bed starts from does not say how many particles it has"
+                                 : ""));
       wrong_.add(key);
     }
     // A feed is held against the packing of the settled bed, whatever the bed begins as.
-    const bool anywhere = scene_.bed.start.kind == StartKind::random && by_particles;
+    const bool anywhere = (unsaid && counted) || (scene_.bed.start.kind == StartKind::random && by_particles);
     if (given("bed.solids_fraction") || !wrong_.sound({"bed.solids_fraction", "bed.start"})) return;
     if ((list || anywhere) && scene_.feeds.empty()) return;
     const auto says_itself = [](const Layer& layer) { return layer.solids_fraction.has_value(); };

@@ -267,4 +267,10 @@ Checkpoint read_checkpoint(const fs::path& path) {
   }
 }
 
+std::vector<double> read_array(const fs::path& path, const std::string& name) {
+  check_whole(path);
+  const OutputFile file = OutputFile::on_disk(path, kind);
+  return file.has("arrays/" + name) ? file.read("arrays/" + name).values : std::vector<double>();
+}
+
 }  // namespace polybed::core

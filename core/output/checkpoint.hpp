@@ -71,6 +71,12 @@ void write_checkpoint(const std::filesystem::path& path, Checkpoint checkpoint, 
 /// or of another version; the message names the previous checkpoint if that one is whole.
 [[nodiscard]] Checkpoint read_checkpoint(const std::filesystem::path& path);
 
+/// Name of the array that says how many particles of each species a checkpoint has.
+inline constexpr const char* particle_numbers = "particle_numbers";
+
+/// One array that is in no part, without the others; empty if there is none. Throws FileError as read_checkpoint().
+[[nodiscard]] std::vector<double> read_array(const std::filesystem::path& path, const std::string& name);
+
 /// Reads what this rank has of arrays in parts, however many ranks have written them; an array of which the file has no
 /// part is left out. Throws FileError if a part is missing or has another shape. Not collective.
 void read_parts(const std::filesystem::path& path, const CheckpointParts& parts, Checkpoint& checkpoint);
