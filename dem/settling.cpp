@@ -14,6 +14,7 @@
 #include "dem/measures.hpp"
 #include "dem/model.hpp"
 #include "dem/packing.hpp"
+#include "relevance/effects/contact.hpp"
 #include "relevance/effects/rolling.hpp"
 #include "relevance/fluid_properties.hpp"
 
@@ -81,26 +82,42 @@ double lifting_energy(const Model& model) {
   return sum[0];
 }
 
+/// How much longer beads with little friction take: what they touch gives way again and again. Measured on a bed of
+/// 300: 4.7 times as long without friction, 2.1 with 0.01, as long as any with 0.1.
+double sliding(const core::Scene& scene, const Materials& materials) {
+  constexpr double without_friction = 3.7, fades = 0.012;
+  double friction = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < int(materials.species().size()); ++i)
+    friction = std::min(friction, materials.kinds()[std::size_t(materials.kind(i, i))].friction);
+  if (relevance::effects::contact.has(scene, relevance::effects::frictionless)) friction = 0;
+  return 1 + without_friction * std::exp(-friction / fades);
+}
+
 }  // namespace
 
 double settling_time(const core::Scene& scene, const Materials& materials, const Box& box) {
   constexpr double until_rest = 2.2, in_fluid = 1.5;  // of the falls below, measured
   const double height = start_height(scene, materials, box), g = scene.column.gravity;
-  const double dry = until_rest * std::sqrt(2 * height / g);
+  const double dry = until_rest * sliding(scene, materials) * std::sqrt(2 * height / g);
   if (!scene.fluid.present()) return dry;
   const relevance::FluidConstants fluid = relevance::fluid_constants(scene.fluid);
-  double slowest = std::numeric_limits<double>::infinity(), solids = 0;
   const std::vector<std::int64_t> numbers = particle_numbers(scene, materials);
+  double solids = 0;
+  for (std::size_t j = 0; j < numbers.size(); ++j)
+    solids +=
+        double(numbers[j]) * closures::sphere_volume(materials.species()[j].radius) / scene.column.cross_section();
+  constexpr double hindrance = 3;  // exponent of Richardson and Zaki between their 2.4 and 4.65
+  double slowest = 0;
   for (std::size_t j = 0; j < numbers.size(); ++j) {
     const Species& s = materials.species()[j];
-    solids += double(numbers[j]) * closures::sphere_volume(s.radius) / scene.column.cross_section();
-    if (numbers[j] > 0)
-      slowest = std::min(slowest, closures::settling_velocity(2 * s.radius, s.density - fluid.density, fluid.density,
-                                                              fluid.viscosity, g));
+    const double excess = s.density - fluid.density;
+    if (numbers[j] == 0 || excess == 0) continue;
+    const double room = excess > 0 ? height : box.size[1];  // what is lighter rises to the top of the column
+    const double way = std::max(0.0, room - solids / scene.bed.solids_fraction);
+    const double alone = closures::settling_velocity(2 * s.radius, std::abs(excess), fluid.density, fluid.viscosity, g);
+    slowest = std::max(slowest, way / (alone * std::pow(1 - solids / room, hindrance)));
   }
-  constexpr double hindrance = 3;  // exponent of Richardson and Zaki between their 2.4 and 4.65
-  const double drop = std::max(0.0, height - solids / scene.bed.solids_fraction);
-  return in_fluid * (dry + drop / (slowest * std::pow(1 - solids / height, hindrance)));
+  return in_fluid * (dry + slowest);
 }
 
 core::Checkpoint settled(const core::Scene& scene, double step, const std::shared_ptr<const core::Ranks>& ranks,
