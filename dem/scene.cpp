@@ -148,6 +148,8 @@ Speeds expected_speeds(const core::Scene& scene, const Materials& materials, con
                        const std::vector<Particle>& start) {
   const Speeds known = known_speeds(scene, materials, box, start);
   if (known.greatest > 0) return known;
+  if (start.empty() && scene.feeds.empty() && scene.dem.start_speed > 0)  // nobody moves: any step will do
+    return {scene.dem.start_speed, scene.dem.start_speed};
   if (!scene.dem.fixed_step)
     throw core::StartError(std::vector{scene.places.problem({"dem.greatest_speed", "column.gravity"}, unknown_speed)});
   double least = std::numeric_limits<double>::infinity();

@@ -19,8 +19,10 @@ DecisionRule rule_of_case(const core::Scene& scene, const Menu& menu) {
   return rule;
 }
 
-/// Whether the rules of an effect let a scene have it: what acts in general may not act in a sheared box.
-bool may_have(core::Scene scene, const Effect& effect, const std::string& law) {
+/// Whether the rules of an effect let a scene have it, with the keys that it is chosen with: what acts in general may
+/// not act in a sheared box.
+bool may_have(core::Scene scene, const Effect& effect, const std::string& law, const Surfaces& surfaces) {
+  if (effect.set_keys) effect.set_keys(scene, surfaces);
   scene.effects[effect.role] = law;
   return core::problems_of(effect.rules, scene).empty();
 }
@@ -59,7 +61,7 @@ core::Scene with_choice(core::Scene scene, const Menu& menu) {
     scene.chooser.chosen.push_back(role);
     const EffectRow* row = find_row(choice.of_case, role);
     const bool on = row != nullptr && row->state == EffectRow::State::on && row->not_built.empty() &&
-                    may_have(scene, *entry.effect, row->model);
+                    may_have(scene, *entry.effect, row->model, choice.surfaces);
     if (on && entry.effect->set_keys) entry.effect->set_keys(scene, choice.surfaces);
     on ? void(scene.effects[role] = row->model) : void(scene.effects.erase(role));
   }
