@@ -4,6 +4,7 @@
 
 #include "core/numerics/metric.hpp"
 #include "core/numerics/random.hpp"
+#include "measures/particle_profile.hpp"
 #include "scenes/dem_scenes.hpp"
 #include "scenes/wet_beads.hpp"
 
@@ -81,7 +82,7 @@ TEST(DemRoundColumn, TheDropOverAFixedBedIsTheForceOnIt) {
       }
     const double force = force_on(bed.model);
     // The flow above the bed is not quite steady after so long.
-    compare("drop x area", bed.model.coupling()->pressure_drop() * area, force + out, 2e-3);
+    compare("drop x area", bed.model.coupling()->pressure_drop() * area, force + out, 1e-3);
     EXPECT_LT(std::abs(out), 0.05 * force);
   });
 }
@@ -97,7 +98,7 @@ TEST(DemRoundColumn, TheDropUnderASuspensionIsItsBuoyantWeight) {
     scene.dem.kernel = kernel;
     scene.dem.fixed_step = 1e-4;
     scene.dem.fluid_every = 10;
-    const std::vector<Bead> beads = within(6e-3, 44e-3, 0.8);
+    const std::vector<Bead> beads = within(16e-3, 46e-3, 0.8);
     Beads bed(scene, beads);
     const double weight = double(beads.size()) * pi / 6 * std::pow(diameter, 3) * (density - water.density) * 9.81;
     const auto speed = [&] {
@@ -105,16 +106,16 @@ TEST(DemRoundColumn, TheDropUnderASuspensionIsItsBuoyantWeight) {
       for (std::size_t i = 0; i < beads.size(); ++i) sum += bed.model.particles().motion[i].v[1];
       return sum / double(beads.size());
     };
-    bed.steps(2000);
+    bed.steps(1000);
     const double before = speed(), solids = double(beads.size()) * pi / 6 * std::pow(diameter, 3);
     double drop = 0;
-    for (int n = 0; n < 100; ++n) {
+    for (int n = 0; n < 50; ++n) {
       bed.steps(10);
-      drop += bed.model.coupling()->pressure_drop() / 100;
+      drop += bed.model.coupling()->pressure_drop() / 50;
     }
     // Momentum that spheres and fluid have gained together: V (rho_p - rho_f) U.
-    const double gained = solids * (density - water.density) * (speed() - before) / (1000 * bed.dt());
-    compare("drop x area over weight", drop * area / (weight + gained), 1, 0.01);
+    const double gained = solids * (density - water.density) * (speed() - before) / (500 * bed.dt());
+    compare("drop x area over weight", drop * area / (weight + gained), 1, 1e-3);
     EXPECT_LT(speed(), -1e-3);
     EXPECT_LT(std::abs(gained), 0.05 * weight);
   });
@@ -138,6 +139,49 @@ TEST(DemRoundColumn, ANeutrallyBuoyantSuspensionStays) {
     compare("greatest speed after 0.01 s, m/s", most, 0, 1e-12, 1);
     compare("pressure drop", bed.model.coupling()->pressure_drop(), 0, 1e-12, water.density * 9.81 * high);
   });
+}
+
+/// Solids in all cells, m3.
+double solids_of(const dem::Model& model) {
+  const dem::Coupling::Column column = model.coupling()->column();
+  double sum = 0;
+  for (std::size_t c = 0; c < column.fraction[0].size(); ++c)
+    sum += column.grid.metric->volume[c] * column.fraction[0][c];
+  return sum * column.grid.cell_volume();
+}
+
+// Spheres carried out through an open top: those inside are in the cells as far as they are inside, and what has left
+// leaves nothing behind. A run taken up between goes on with the same bits, with a force that turns the spheres.
+TEST(DemRoundColumn, LosesWhatPassesItsTopAndResumesWithTheSameBits) {
+  core::Scene scene = round_column(1010, {6, 12, 6});
+  scene.column.closed = false;
+  scene.column.outlet = core::Outlet::open;
+  scene.column.gravity = 9.81;
+  scene.inlet.superficial_velocity = {{0.0, 0.06}};
+  scene.effects["drag"] = "cello";
+  scene.effects["added_mass"] = "zuber";
+  scene.effects["magnus"] = "rubinow_keller";
+  scene.dem.fixed_step = 1e-4;
+  scene.dem.fluid_every = 10;
+  const std::vector<Bead> beads = within(24e-3, 47e-3, 0.8);
+  Beads through(scene, beads), again(scene, beads);
+  through.run_while([&] { return through.model.outflow()->number[0] < 20; }, 10'000);
+  through.steps(10 - through.model.steps() % 10);  // to the end of a step of the fluid
+  double inside = 0;
+  for (std::size_t i = 0; i < through.model.particles().owned; ++i) {
+    const dem::Place& place = through.model.particles().place[i];
+    inside += measures::sphere_volume_below(place.radius, place.x[1], high);
+  }
+  compare("solids in the cells", solids_of(through.model), inside, 1e-9);
+  through.model.restart();
+  const core::Checkpoint middle = through.model.checkpoint();
+  again.model.resume(middle);
+  for (Beads* run : {&through, &again}) run->steps(300);
+  EXPECT_GT(through.model.outflow()->number[0], 20);
+  const core::Checkpoint one = through.model.checkpoint(), other = again.model.checkpoint();
+  EXPECT_EQ(one.integers, other.integers);
+  EXPECT_EQ(one.numbers, other.numbers);
+  EXPECT_EQ(one.arrays, other.arrays);
 }
 
 }  // namespace
