@@ -184,5 +184,21 @@ TEST(DemRoundColumn, LosesWhatPassesItsTopAndResumesWithTheSameBits) {
   EXPECT_EQ(one.arrays, other.arrays);
 }
 
+// Water that rises slowly, fed with glass from the top, anywhere in the circle: 1 mm/s of 452 mm2 for 0.1 s, in whole
+// spheres of 4.19 mm3. What has come in is in the cells.
+TEST(DemRoundColumn, IsFedWithinItsCircle) {
+  core::Scene scene = round_column(2500, {6, 12, 6});
+  scene.column.closed = false;
+  scene.column.gravity = 9.81;
+  scene.inlet.superficial_velocity = {{0.0, 0.01}};
+  scene.dem.fixed_step = 1e-4;
+  scene.dem.fluid_every = 10;
+  scene.feeds = {{"a", core::FeedEnd::top, {{0.0, 1e-3}}, 0.1, {}, {}}};
+  Beads bed(scene, {{"a", {0.5 * across, 10e-3, 0.5 * across}}});
+  bed.steps(1000);
+  EXPECT_EQ(bed.model.feeding()->all(), 10);
+  compare("solids in the cells", solids_of(bed.model), 11 * pi / 6 * std::pow(diameter, 3), 1e-9);
+}
+
 }  // namespace
 }  // namespace polybed::scenes
