@@ -102,27 +102,28 @@ std::vector<std::string> start_keys(std::vector<std::string> first) {
 }  // namespace
 
 std::vector<core::Rule> start_rules() {
-  return {{start_keys({"column.size", "bed.start_solids_fraction"}), "the particles have no room at their start: {}",
-           without_room},
-          room_for_images("column.depth", {2}),
-          room_for_images("column.size", {0, 1}),
-          {start_keys({"dem.greatest_speed", "column.gravity"}), unknown_speed, speed_unknown},
-          {{"bed.start", "column.gravity"},
-           "bed.start = \"settled\": without column.gravity nothing settles; use \"random\" or \"mixed\"",
-           [](const Scene& scene) {
-             return core::broken_if(scene.bed.start.kind == core::StartKind::settled && !(scene.column.gravity > 0));
-           }},
-          {{"bed.start", "column.ends", "column.sides", "column.gravity_direction"},
-           "bed.start = \"settled\": along joined faces particles fall for ever; use \"random\" or \"mixed\", or walls "
-           "across the direction of column.gravity",
-           [](const Scene& scene) {
-             return core::broken_if(scene.bed.start.kind == core::StartKind::settled && scene.column.gravity > 0 &&
-                                    falls_through_joined_faces(box_of(scene), gravity_of(scene)));
-           }},
-          {start_keys({"dem.fluid_ranks", "dem.kernel"}),
-           "dem.fluid_ranks = \"shared\" does not go with a kernel of diffusion, which needs the whole column: use "
-           "\"each\", or cells of at least 1.5 diameters with dem.kernel = \"bilinear\"",
-           shared_with_a_wide_kernel}};
+  return {
+      {start_keys({"column.size", "bed.start_solids_fraction"}), "the particles have no room at their start: {}",
+       without_room},
+      room_for_images("column.depth", {2}),
+      room_for_images("column.size", {0, 1}),
+      {start_keys({"dem.greatest_speed", "column.gravity"}), unknown_speed, speed_unknown},
+      {{"bed.start", "column.gravity"},
+       "bed.start = \"settled\": without column.gravity nothing settles; use \"random\" or \"mixed\"",
+       [](const Scene& scene) {
+         return core::broken_if(scene.bed.start.kind == core::StartKind::settled && !(scene.column.gravity > 0));
+       }},
+      {{"bed.start", "column.ends", "column.sides", "column.gravity_direction", "column.size", "column.shape", "wall."},
+       "bed.start = \"settled\": along joined faces particles fall for ever; use \"random\" or \"mixed\", or walls "
+       "across the direction of column.gravity",
+       [](const Scene& scene) {
+         return core::broken_if(scene.bed.start.kind == core::StartKind::settled && scene.column.gravity > 0 &&
+                                falls_through_joined_faces(box_of(scene), gravity_of(scene)));
+       }},
+      {start_keys({"dem.fluid_ranks", "dem.kernel"}),
+       "dem.fluid_ranks = \"shared\" does not go with a kernel of diffusion, which needs the whole column: use "
+       "\"each\", or cells of at least 1.5 diameters with dem.kernel = \"bilinear\"",
+       shared_with_a_wide_kernel}};
 }
 
 core::Rule contact_rule() {

@@ -172,7 +172,7 @@ def outlines_of(run):
             lines += ends + [[low, high] for low, high in zip(*(line[:: ROUND // 8] for line in ends))]
         else:
             lines.append([[*start, 0], [*end, 0], [*end, size[2]], [*start, size[2]]])
-    if case_of(run.record)["column"].get("shape") == "cylinder":
+    if case_of(run.record).get("column", {}).get("shape") == "cylinder":
         lines.append(circle_in(size, size[0], 0))
     return [np.array(line, dtype=float).reshape(-1, 3) for line in lines + opening_of(run)]
 
