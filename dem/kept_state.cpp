@@ -46,6 +46,15 @@ void require_particles(const std::vector<double>& numbers, std::size_t species, 
   }
 }
 
+/// The centres of particles that a box may have left lie within the side of a round one.
+void require_within_side(const std::vector<double>& numbers, const Vector& size) {
+  const double radius = 0.5 * size[0];
+  for (const double* p = numbers.data(); p != numbers.data() + numbers.size(); p += particle_width)
+    if (std::hypot(p[2] - radius, p[4] - radius) > radius)
+      core::refuse_checkpoint(fmt::format("particle {:.0f} lies outside the round column, at ({:g}, {:g}, {:g}) m",
+                                          p[0], p[2], p[3], p[4]));
+}
+
 /// Contacts of particles that are there.
 void require_contacts(const std::vector<double>& numbers, std::size_t memory_size,
                       const std::vector<double>& particles) {
@@ -182,6 +191,7 @@ KeptState read_state(const core::Checkpoint& checkpoint, Clock clock, const Kept
     particles = checkpoint.array("particles");
     contacts = checkpoint.array("contacts");
     require_particles(particles, shape.materials.species().size(), shape.size);
+    if (shape.round) require_within_side(particles, shape.size);
     require_contacts(contacts, std::size_t(shape.memory_size), particles);
     head = {double(particles.size()),
             double(contacts.size()),

@@ -44,8 +44,9 @@ struct KeptState {
 /// What the rows must fit.
 struct KeptShape {
   const Materials& materials;
-  Vector size;      ///< of the box, m
-  int memory_size;  ///< of a contact
+  Vector size;         ///< of the box, m
+  int memory_size;     ///< of a contact
+  bool round = false;  ///< whether the box is
 };
 /// Collective; only the first rank's checkpoint and clock are read. Throws core::FileError for what no run has.
 [[nodiscard]] KeptState read_state(const core::Checkpoint& checkpoint, Clock clock, const KeptShape& shape,

@@ -49,7 +49,9 @@ std::string trouble_of_pair(const Model& model, const core::Scene& scene) {
   const Place& at = particles.place[std::size_t(pair.first)];
   const int plate = t.wall ? model.box().walls[std::size_t(pair.second)].plate : -1;
   const bool inside = plate >= 0 && std::size_t(plate) < scene.walls.size();  // those of the case come first
+  const bool side = plate >= 0 && model.box().plates[std::size_t(plate)].along_y != 0;
   const std::string other = inside   ? fmt::format("[[wall]] number {}", plate + 1)
+                            : side   ? "the side of the column"
                             : t.wall ? fmt::format("wall {}", pair.second)
                                      : fmt::format("particle {}", particles.id[std::size_t(pair.second)]);
   return fmt::format(

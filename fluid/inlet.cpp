@@ -66,16 +66,33 @@ double overlap(const core::Grid& grid, int axis, int n, double from, double to) 
   return std::max(0.0, high - low) / h * (ring ? (low + high) / ((2 * m + 1) * h) : 1.0);
 }
 
+/// By what the shares of a part of a round column are multiplied, so that with the open shares of its faces they have
+/// the part's own area. 0 where the part lies on closed cells alone.
+double scale_of_part(const core::Grid& grid, const std::vector<double>& from, const std::vector<double>& to) {
+  if (!grid.metric || grid.metric->around_axis || from.size() < 2) return 1;
+  const core::CrossSection& section = grid.metric->section;
+  const auto along = [&](std::size_t d, int axis, int cell) {
+    const double h = grid.spacing[std::size_t(axis)];
+    return std::max(0.0, std::min(to[d], (cell + 1) * h) - std::max(from[d], cell * h)) / h;
+  };
+  double open = 0;
+  for (int k = 0; k < section.depth; ++k)
+    for (int i = 0; i < section.width; ++i) open += along(0, 0, i) * along(1, 2, k) * section.volume[section.at(i, k)];
+  const double own = (to[0] - from[0]) * (to[1] - from[1]) / (grid.spacing[0] * grid.spacing[2]);
+  return open > 0 ? own / open : 0;
+}
+
 }  // namespace
 
 std::vector<double> face_shares(const core::Grid& grid, const std::vector<double>& from,
                                 const std::vector<double>& to) {
   std::vector<double> share;
+  const double scale = scale_of_part(grid, from, to);
   for (int k = 0; k < grid.cells[2]; ++k)
     for (int i = 0; i < grid.cells[0]; ++i) {
       const double along_x = from.empty() ? 1.0 : overlap(grid, 0, i, from[0], to[0]);
       const double along_z = from.size() < 2 ? 1.0 : overlap(grid, 2, k, from[1], to[1]);
-      share.push_back(along_x * along_z);
+      share.push_back(scale * along_x * along_z);
     }
   return share;
 }

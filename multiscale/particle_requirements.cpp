@@ -20,6 +20,7 @@
 #include "dem/rules.hpp"
 #include "dem/scene.hpp"
 #include "dem/settling.hpp"
+#include "fluid/viscous_stress.hpp"
 #include "relevance/effects/contact.hpp"
 #include "relevance/fluid_properties.hpp"
 
@@ -106,9 +107,7 @@ double courant_of(const core::Scene& scene, double dt) {
   const double convected = inflow / (1 - scene.bed.solids_fraction) * dt / grid.smallest_spacing();
   if (!core::acts(scene, "fluid_stress")) return convected;
   const relevance::FluidConstants fluid = relevance::fluid_constants(scene.fluid);
-  double per_square = 0;
-  for (int axis = 0; axis < grid.dimensions; ++axis) per_square += std::pow(grid.spacing[std::size_t(axis)], -2);
-  return std::max(convected, 2 * fluid.viscosity / fluid.density * dt * per_square);
+  return std::max(convected, 2 * fluid.viscosity / fluid.density * dt * fluid::viscous_rate(grid));
 }
 
 constexpr double mega = 1e-6;

@@ -8,6 +8,7 @@
 
 #include "core/error.hpp"
 #include "core/numerics/blocks.hpp"
+#include "core/numerics/metric.hpp"
 #include "core/numerics/ranks.hpp"
 #include "tfm/model.hpp"
 
@@ -97,8 +98,29 @@ void Model::keep_last_state() {
   if (time_ == last_step_.time) y_.assign(integrator().state().begin(), integrator().state().end());
 }
 
+namespace {
+
+/// What a state of another column has where the wall of a round one closes cells and faces.
+void clear_closed(const core::Grid& grid, const StateLayout& layout, std::span<double> y) {
+  using Kind = StateLayout::Entry::Kind;
+  if (!grid.metric) return;
+  for (const StateLayout::Entry& entry : layout.entries()) {
+    if (entry.kind == Kind::passed || entry.kind == Kind::pressure) continue;
+    const bool on_faces = entry.kind == Kind::velocity || entry.kind == Kind::flux;
+    const core::Field& open = on_faces ? grid.metric->open[std::size_t(entry.axis)] : grid.metric->volume;
+    core::Field values = core::make_field(grid);
+    layout.unpack(entry, y, values);
+    for (std::size_t c = 0; c < values.size(); ++c)
+      if (!(open[c] > 0)) values[c] = 0;
+    layout.pack(entry, values, y);
+  }
+}
+
+}  // namespace
+
 void Model::start_from(const core::Checkpoint& checkpoint) {
   resume(checkpoint);
+  clear_closed(constants().grid, layout_, y_);
   time_ = step_ = 0;
   before_ = {};
   for (const StateLayout::Entry& entry : layout_.entries())

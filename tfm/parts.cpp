@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/numerics/metric.hpp"
 #include "core/numerics/ranks.hpp"
 #include "core/output/checkpoint.hpp"
 #include "fluid/pressure.hpp"
@@ -27,10 +28,12 @@ void start_from_the_top(const core::Grid& grid, core::Field& pressure) {
   core::Box top = core::owned_cells(grid);
   top.lo[1] = grid.ends(1, 1) ? top.hi[1] - 1 : top.hi[1];
   std::vector<double> layer;
-  core::for_each_row(grid, top, [&](Index begin, Index end) {
-    layer.insert(layer.end(), pressure.begin() + begin, pressure.begin() + end);
+  core::with_metric(grid, [&](const auto& metric) {
+    core::for_each_row(grid, top, [&](Index begin, Index end) {
+      for (Index c = begin; c < end; ++c) layer.push_back(metric.volume(c) * pressure[std::size_t(c)]);
+    });
   });
-  const double mean = core::sum_of_ranks(grid, layer) / (double(grid.column_cells(0)) * grid.column_cells(2));
+  const double mean = core::sum_of_ranks(grid, layer) / core::open_cells_of_layer(grid);
   for (double& p : pressure) p -= mean;
 }
 

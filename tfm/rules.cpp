@@ -72,6 +72,23 @@ Broken outlet_fed_shut(const Scene& scene) {
   return broken;
 }
 
+/// Feeds and jets of which nothing can come in, since all their cells are cut off by a round wall.
+Broken on_closed_cells(const Scene& scene) {
+  Broken broken;
+  if (!scene.column.is_round() || scene.column.closed) return broken;
+  const core::Grid grid = core::grid_of(scene.column, nullptr);
+  const auto see = [&](const auto& parts, const char* what) {
+    for (std::size_t n = 0; n < parts.size(); ++n) {
+      const std::vector<double> share = fluid::face_shares(grid, parts[n].from, parts[n].to);
+      if (std::all_of(share.begin(), share.end(), [](double one) { return one == 0; }))
+        broken.add({what, std::to_string(n + 1)});
+    }
+  };
+  see(scene.feeds, "[[feed]]");
+  see(scene.jets, "[[jet]]");
+  return broken;
+}
+
 bool leans(const Scene& scene) {
   const auto& down = scene.column.down;
   return down[0] != 0 || down[2] != 0 || !(down[1] < 0);
@@ -109,6 +126,9 @@ std::vector<core::Rule> key_rules() {
        "give "
        "feed.from and feed.to for a part of the top, or column.outlet = \"screen\"",
        outlet_fed_shut},
+      {{"column.shape", "column.size", "column.cells", "feed.", "jet."},
+       "{} number {} lies on cells that the round wall cuts off: move it inwards, or take smaller cells",
+       on_closed_cells},
       {{"column.shape", "tfm.solids_wall"},
        "column.shape = \"{}\" and tfm.solids_wall = \"{}\" cannot be combined yet: the solids slip freely along round "
        "walls",

@@ -49,20 +49,40 @@ bool in_circle(const Column& column, double x, double z) {
   return std::hypot(x - radius, z - radius) <= radius * (1 + 1e-12);
 }
 
+/// Whether a part of the cross-section, a feed's or a jet's, has a corner beyond a round column.
+template <class Part>
+bool is_beyond_the_circle(const Scene& scene, const Part& part) {
+  if (!scene.column.is_round() || part.from.size() != 2 || part.to.size() != 2) return false;
+  for (const double x : {part.from[0], part.to[0]})
+    for (const double z : {part.from[1], part.to[1]})
+      if (!in_circle(scene.column, x, z)) return true;
+  return false;
+}
+
 Broken feeds_beyond_the_circle(const Scene& scene) {
   Broken broken;
-  if (!scene.column.is_round()) return broken;
-  for (std::size_t n = 0; n < scene.feeds.size(); ++n) {
-    const std::vector<double>&from = scene.feeds[n].from, &to = scene.feeds[n].to;
-    if (from.size() != 2 || to.size() != 2) continue;
-    bool inside = true;
-    for (const double x : {from[0], to[0]})
-      for (const double z : {from[1], to[1]}) inside = inside && in_circle(scene.column, x, z);
-    if (!inside)
+  for (std::size_t n = 0; n < scene.feeds.size(); ++n)
+    if (is_beyond_the_circle(scene, scene.feeds[n]))
       broken.add({scene.feeds[n].species, fmt::format("{:.4g}", scene.column.size[0])},
                  entry_of(scene, scene.feeds, n));
-  }
   return broken;
+}
+
+Broken jets_beyond_the_circle(const Scene& scene) {
+  Broken broken;
+  for (std::size_t n = 0; n < scene.jets.size(); ++n)
+    if (is_beyond_the_circle(scene, scene.jets[n]))
+      broken.add({std::to_string(n + 1), fmt::format("{:.4g}", scene.column.size[0])}, n);
+  return broken;
+}
+
+/// Cells so long that a wall may cut one off from all others.
+Broken long_cells_in_a_cylinder(const Scene& scene) {
+  constexpr double most = 4;
+  const Column& column = scene.column;
+  const double ratio = double(column.cells[0]) / column.cells[2];
+  if (!column.is_round() || column.dimensions != 3 || (ratio <= most && ratio * most >= 1)) return {};
+  return Broken({std::to_string(column.cells[0]), std::to_string(column.cells[2])});
 }
 
 std::vector<Rule> round_column_rules() {
@@ -103,7 +123,13 @@ std::vector<Rule> round_column_rules() {
       {{"feed.from", "feed.to", "feed.species", "column.size", "column.shape"},
        "[[feed]] of {} reaches beyond the round column, {} m in diameter: move feed.from and feed.to inwards, or "
        "leave them out",
-       feeds_beyond_the_circle}};
+       feeds_beyond_the_circle},
+      {{"jet.from", "jet.to", "column.size", "column.shape"},
+       "[[jet]] number {} reaches beyond the round column, {} m in diameter: move jet.from and jet.to inwards",
+       jets_beyond_the_circle},
+      {{"column.cells", "column.size", "column.shape"},
+       "column.cells: {} cells across and {} deep in a round column: at most four times as many one way",
+       long_cells_in_a_cylinder}};
 }
 
 Broken wall_ends_miscounted(const Scene& scene) {

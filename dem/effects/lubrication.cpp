@@ -110,8 +110,9 @@ class WetContact final : public NormalLaw {
     }
     for (std::size_t a = 0; a < materials.species().size(); ++a) {
       const Species& s = materials.species()[a];
-      constants_[std::size_t(materials.wall_kind(std::int32_t(a)))].stokes =
-          closures::stokes_of_impact(s.density, fluid.density, 2 * s.radius, 1, fluid.viscosity);
+      const double stokes = closures::stokes_of_impact(s.density, fluid.density, 2 * s.radius, 1, fluid.viscosity);
+      materials.each_wall_kind(std::int32_t(a),
+                               [&](std::int32_t kind) { constants_[std::size_t(kind)].stokes = stokes; });
     }
   }
 

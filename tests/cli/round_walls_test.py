@@ -1,10 +1,12 @@
 #!/usr/bin/python3
 """A round silo with a cone inside: it fills, empties, and keeps its beads within. Usage: round_walls_test.py PROGRAM"""
+import re
+
 import h5py
 import numpy as np
 
 import program
-from program import DONE, WRONG_CASE, Scratch, history, strict_json
+from program import DONE, FILE, WRONG_CASE, Scratch, history, strict_json
 
 BED = """title = "a round hopper"
 [column]
@@ -87,6 +89,16 @@ class RoundHopper(Scratch):
         told = self.ends(WRONG_CASE, "dem", self.write("list.toml", text), "-o", self.folder / "list").stderr
         self.assertIn("two.csv:3", told)
         self.assertIn("the centre lies outside the round column", told)
+
+    def test_a_checkpoint_of_a_box_with_particles_beside_the_circle_is_refused(self):
+        text = re.sub(r"\[\[wall\]\].*?(?=\[effects\])", "", BED, flags=re.DOTALL).replace('opening = "9 mm"\n', "")
+        text = text.replace('particles = [400]\nsolids_fraction = 0.6\nstart = "mixed"\nstart_solids_fraction = 0.4', 'start = "list:two.csv"')
+        self.write("two.csv", "species,x,y,z\nbeads,0.012,0.03,0.012\nbeads,0.002,0.03,0.002\n")
+        box = self.write("box.toml", text.replace('shape = "cylinder"\n', ""))
+        self.ends(DONE, "dem", box, "--until", "1 ms", "--quiet", "--no-picture", "-o", self.folder / "box")
+        text = text.replace("list:two.csv", f"checkpoint:{self.folder}/box/checkpoint.h5")
+        told = self.ends(FILE, "dem", self.write("round.toml", text), "--quiet", "-o", self.folder / "round").stderr
+        self.assertIn("particle 1 lies outside the round column", told)
 
     def test_walls_inside_are_for_dry_runs(self):
         wet = BED.replace('name = "none"', 'name = "water"\ntemperature = "20 degC"')

@@ -24,6 +24,9 @@ WALLS = {
         *ROUND, *COUNTED, layers(FINE + ", from=[0.02, 0.02], to=[0.04, 0.04]")],
     "[[feed]] of {} reaches beyond the round column, {} m in diameter: move feed.from and feed.to inwards, or leave them out": [
         *ROUND, feeds(", from=[0.0, 0.02], to=[0.04, 0.04]")],
+    "[[jet]] number {} reaches beyond the round column, {} m in diameter: move jet.from and jet.to inwards": [
+        *ROUND, "jet=[{from=[0, 0.02], to=[0.04, 0.04], superficial_velocity=0.1}]"],
+    "column.cells: {} cells across and {} deep in a round column: at most four times as many one way": [*ROUND, "column.cells=[1, 6, 20]"],
     "wall.from and wall.to have {} and {} numbers: 2 here, x and y, or diameter and height of a round one": [wall([0.01], [0.02, 0.01])],
     "[[wall]] number {} is {} m in diameter at its narrow end, less than two particles, {} m: widen it": [
         wall([0.0015, 0.1], [0.02, 0.12], "cone")],
@@ -42,6 +45,8 @@ WALLS = {
 
 # Of one model.
 ROUND_OF_MODELS = {
+    "{} number {} lies on cells that the round wall cuts off: move it inwards, or take smaller cells": [
+        *ROUND, "column.cells=[8,8,20]", "jet=[{from=[0.0064, 0.0130], to=[0.0074, 0.0149], superficial_velocity=0.1}]"],
     'column.shape = "{}" and tfm.solids_wall = "{}" cannot be combined yet: the solids slip freely along round walls': [
         AROUND, "tfm.solids_wall=johnson_jackson"],
     'column.shape = "cylinder" and dem.own_share = "removed" cannot be combined yet; use dem.own_share = "kept"': [
