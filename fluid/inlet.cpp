@@ -57,10 +57,9 @@ double Ramp::greatest() const {
 
 namespace {
 
-/// Share of the block's cell n of an axis that lies in [from, to]; of a ring, by its area.
-double overlap(const core::Grid& grid, int axis, int n, double from, double to) {
+/// Share of the column's cell m of an axis that lies in [from, to]; of a ring, by its area.
+double overlap(const core::Grid& grid, int axis, int m, double from, double to) {
   const double h = grid.spacing[std::size_t(axis)];
-  const int m = grid.before[std::size_t(axis)] + n;
   const double low = std::max(from, m * h), high = std::min(to, (m + 1) * h);
   const bool ring = axis == 0 && grid.metric && grid.metric->around_axis;
   return std::max(0.0, high - low) / h * (ring ? (low + high) / ((2 * m + 1) * h) : 1.0);
@@ -71,13 +70,11 @@ double overlap(const core::Grid& grid, int axis, int n, double from, double to) 
 double scale_of_part(const core::Grid& grid, const std::vector<double>& from, const std::vector<double>& to) {
   if (!grid.metric || grid.metric->around_axis || from.size() < 2) return 1;
   const core::CrossSection& section = grid.metric->section;
-  const auto along = [&](std::size_t d, int axis, int cell) {
-    const double h = grid.spacing[std::size_t(axis)];
-    return std::max(0.0, std::min(to[d], (cell + 1) * h) - std::max(from[d], cell * h)) / h;
-  };
   double open = 0;
   for (int k = 0; k < section.depth; ++k)
-    for (int i = 0; i < section.width; ++i) open += along(0, 0, i) * along(1, 2, k) * section.volume[section.at(i, k)];
+    for (int i = 0; i < section.width; ++i)
+      open +=
+          overlap(grid, 0, i, from[0], to[0]) * overlap(grid, 2, k, from[1], to[1]) * section.volume[section.at(i, k)];
   const double own = (to[0] - from[0]) * (to[1] - from[1]) / (grid.spacing[0] * grid.spacing[2]);
   return open > 0 ? own / open : 0;
 }
@@ -90,8 +87,8 @@ std::vector<double> face_shares(const core::Grid& grid, const std::vector<double
   const double scale = scale_of_part(grid, from, to);
   for (int k = 0; k < grid.cells[2]; ++k)
     for (int i = 0; i < grid.cells[0]; ++i) {
-      const double along_x = from.empty() ? 1.0 : overlap(grid, 0, i, from[0], to[0]);
-      const double along_z = from.size() < 2 ? 1.0 : overlap(grid, 2, k, from[1], to[1]);
+      const double along_x = from.empty() ? 1.0 : overlap(grid, 0, grid.before[0] + i, from[0], to[0]);
+      const double along_z = from.size() < 2 ? 1.0 : overlap(grid, 2, grid.before[2] + k, from[1], to[1]);
       share.push_back(scale * along_x * along_z);
     }
   return share;

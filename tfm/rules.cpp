@@ -32,8 +32,8 @@ Broken wall_without_viscosity(const Scene& scene) {
                          !relevance::effects::solids_stress.has(scene, relevance::effects::with_collisions));
 }
 
-/// Around an axis walls that do not slip follow the grid.
-Broken slow_solids_on_round_wall(const Scene& scene) {
+/// Walls that hold solids have to follow the grid, as they do around an axis.
+Broken solids_held_by_a_round_wall(const Scene& scene) {
   const core::ColumnShape shape = scene.column.shape;
   const core::SolidsWall wall = scene.tfm.solids_wall;
   const bool follows = scene.column.around_axis() && wall == core::SolidsWall::no_slip;
@@ -132,7 +132,7 @@ std::vector<core::Rule> key_rules() {
       {{"column.shape", "tfm.solids_wall"},
        "column.shape = \"{}\" and tfm.solids_wall = \"{}\" cannot be combined yet: the solids slip freely along round "
        "walls",
-       slow_solids_on_round_wall},
+       solids_held_by_a_round_wall},
       {{"tfm.fixed_step", "tfm.integrator"},
        "tfm.fixed_step works with explicit and imex steps only",
        [](const Scene& scene) { return core::broken_if(is_implicit(scene) && scene.tfm.fixed_step); }}};

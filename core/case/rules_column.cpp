@@ -142,15 +142,17 @@ std::vector<Rule> shear_rules() {
            }}};
 }
 
+constexpr double most_outputs = 1e7;
+
 /// Files without end, and times that floating point cannot tell apart.
 Rule countable(const std::string& key, std::optional<double> OutputPlan::*every) {
-  constexpr double most = 1e7;
   return {{"output." + key, "run.until"},
-          "output." + key + " = {} s: {} times until run.until = {} s; at most 1e7: take a longer one",
+          "output." + key + " = {} s: {} times until run.until = {} s; at most {}: take a longer one",
           [every](const Scene& scene) {
             const double until = scene.run.until, step = (scene.output.*every).value_or(until);
-            if (!(until > most * step)) return Broken();
-            return Broken({fmt::format("{:g}", step), fmt::format("{:.2g}", until / step), fmt::format("{:g}", until)});
+            if (!(until > most_outputs * step)) return Broken();
+            return Broken({fmt::format("{:g}", step), fmt::format("{:.2g}", until / step), fmt::format("{:g}", until),
+                           fmt::format("{:g}", most_outputs)});
           }};
 }
 

@@ -1,5 +1,5 @@
 // What of a grid's equal cells is open where the wall of a round column does not follow them, or where they lie around
-// an axis: the one place that knows the shape of a column.
+// an axis.
 //
 // A cell has the open volume theta V, a face the open area alpha A, of those of a whole cell and face:
 //
@@ -43,7 +43,7 @@ struct Metric {
   Field per_radius;          ///< 1/r of cells, 1/m; 0 in a box and a cylinder
   Field per_radius_on;       ///< and of faces along x
   bool around_axis = false;  ///< the low end along x is an axis and no wall
-  std::array<std::vector<Index>, 3> closed;  ///< faces that a wall closes between cells of the padded box
+  std::array<std::vector<Index>, 3> closed;  ///< faces of the padded box without an open part
 };
 
 /// Of a block, or the whole column, with the shape of the column that it is a part of; null for a box.
@@ -58,9 +58,10 @@ struct UniformMetric {
   static constexpr double per_volume_on(std::size_t, Index) { return 1; }
 };
 
+/// Of a round column.
 class GeneralMetric {
  public:
-  static constexpr bool radial = true;
+  static constexpr bool radial = true;  ///< there may be an axis; in a cylinder what it adds is 0
   explicit GeneralMetric(const Metric& metric)
       : volume_(metric.volume.data()),
         per_volume_(metric.per_volume.data()),

@@ -123,7 +123,7 @@ KEYS = {
         ("dem.held = true", "dem.held=true"), ("fluid.equation_of_state", "fluid.equation_of_state=tait"))},
     **{f'bed.{key} cannot act: bed.start = "{{}}"': ["bed.start=list:none.csv", f"bed.{key}={value}"] for key, value in (
         ("start_solids_fraction", 0.2), ("volume_share", [1.0]), ("static_height", 0.06), ("particles", [10]))},
-    **{f"output.{key} = {{}} s: {{}} times until run.until = {{}} s; at most 1e7: take a longer one": [f"output.{key}=1e-12"]
+    **{f"output.{key} = {{}} s: {{}} times until run.until = {{}} s; at most {{}}: take a longer one": [f"output.{key}=1e-12"]
        for key in ("every", "history_every", "checkpoint_every")},
     "inlet.superficial_velocity is missing (or give inlet.flow_rate, or set column.closed = true)": ["inlet.superficial_velocity=!"],
     "inlet.flow_rate and inlet.superficial_velocity both say how much flows in: give one of them": ["inlet.flow_rate=1e-5"],
