@@ -1,11 +1,8 @@
-// What a column requires: its axes, gravity, joined ends, and the flow of a sheared box; times of output; and the list
-// of all rules.
+// What columns and the times of output require, and the list of all rules.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
-#include <optional>
-#include <string>
 
 #include "core/case/case_rules.hpp"
 #include "core/case/resolve.hpp"
