@@ -52,7 +52,7 @@ bool Boundaries::begins_at_axis(int axis) const { return axis == 0 && grid_.metr
 void Boundaries::fill_walls(const Ghosts& wanted, int axis) const {
   if (wanted.kind == Ghosts::Kind::joined) return;
   const double along_wall = wanted.slip == WallSlip::no_slip ? -1 : 1;
-  const bool open_top = axis == 1 && !closed_;
+  const bool open_top = axis == 1 && has_outlet();
   if (wanted.kind == Ghosts::Kind::cells)
     fill_beyond(*wanted.field, axis, 1, 1, false);
   else if (axis == wanted.component)
@@ -69,7 +69,7 @@ void Boundaries::fill(std::span<const Ghosts> wanted) const {
     for (const Ghosts& ghosts : wanted) fill_walls(ghosts, axis);
   }
   for (const Ghosts& ghosts : wanted)
-    if (ghosts.kind == Ghosts::Kind::velocity && ghosts.component == 1 && !closed_) copy_outward(*ghosts.field);
+    if (ghosts.kind == Ghosts::Kind::velocity && ghosts.component == 1 && !closed()) copy_outward(*ghosts.field);
 }
 
 void Boundaries::fill_cells(Field& field) const { fill_cells(std::span(&field, 1)); }

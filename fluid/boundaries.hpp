@@ -5,9 +5,18 @@
 #include <limits>
 #include <span>
 
+#include "core/case/scene.hpp"
 #include "core/numerics/halo.hpp"
 
 namespace polybed::fluid {
+
+/// How the fluid crosses the bottom and the top: not at all; with a given velocity below and a given pressure above; or
+/// with given velocities at both.
+enum class Ends { walls, outlet, given };
+[[nodiscard]] inline Ends ends_of(const core::Scene& scene) {
+  if (scene.column.closed) return Ends::walls;
+  return scene.inlet.at == core::ColumnEnd::top ? Ends::given : Ends::outlet;
+}
 
 /// What a velocity does along a wall.
 enum class WallSlip { no_slip, free_slip };
@@ -24,17 +33,19 @@ struct Ghosts {
 class Boundaries {
  public:
   Boundaries() = default;
-  /// closed: no inlet and no outlet, walls all round; open: the outlet lets solids out.
-  Boundaries(const core::Grid& grid, bool closed, bool open = false)
-      : grid_(grid), halo_(grid), closed_(closed), open_(open && !closed) {}
+  /// open: the outlet lets solids out.
+  Boundaries(const core::Grid& grid, Ends ends, bool open = false)
+      : grid_(grid), halo_(grid), ends_(ends), open_(open && ends == Ends::outlet) {}
 
-  [[nodiscard]] bool closed() const { return closed_; }
+  [[nodiscard]] bool closed() const { return ends_ == Ends::walls; }
+  /// Whether the pressure is given at the top, through which the fluid flows as it likes.
+  [[nodiscard]] bool has_outlet() const { return ends_ == Ends::outlet; }
   [[nodiscard]] bool open() const { return open_; }
 
   /// Whether this block reaches a wall for the solids at the low (0) or high (1) end of an axis: all ends of the column
   /// are but the top of an open one, the distributor too.
   [[nodiscard]] bool stops_solids(int axis, int side) const {
-    return grid_.ends(axis, side) && (axis != 1 || side == 0 || closed_);
+    return grid_.ends(axis, side) && (axis != 1 || side == 0 || !has_outlet());
   }
 
   /// Solids lie below a row of cells of the column: their equations are asked below it only, and nothing crosses its
@@ -72,7 +83,7 @@ class Boundaries {
   /// faces move for the fluid, and for solids if it is open, where these are not held.
   [[nodiscard]] core::Box moving_faces(int axis, bool of_fluid) const {
     core::Box box = core::interior_faces(grid_, axis);
-    if ((of_fluid || open_) && axis == 1 && !closed_ && grid_.ends(1, 1)) ++box.hi[1];
+    if ((of_fluid || open_) && axis == 1 && has_outlet() && grid_.ends(1, 1)) ++box.hi[1];
     return of_fluid ? box : with_solids(box);
   }
 
@@ -94,7 +105,8 @@ class Boundaries {
   core::Halo halo_;
   mutable std::vector<core::Field*> exchanged_;  ///< kept, so that filling allocates nothing
   mutable std::vector<Ghosts> wanted_;
-  bool closed_ = false, open_ = false;
+  Ends ends_ = Ends::outlet;
+  bool open_ = false;
   int solids_rows_ = std::numeric_limits<int>::max();  ///< of this block, counted from its first
 };
 

@@ -32,7 +32,7 @@ void clear(core::FaceField& faces) {
 
 Flow::Flow(const core::Scene& scene, const core::Grid& grid, double tolerance)
     : grid_(grid),
-      boundaries_(grid, scene.column.closed),
+      boundaries_(grid, ends_of(scene)),
       inlet_(grid, scene),
       constants_(relevance::fluid_constants(scene.fluid)),
       gravity_(scene.column.gravity),
@@ -129,14 +129,18 @@ void Flow::finish_compression(double dt, FlowStep& step) {
   set_density();
 }
 
-/// What flows in, over the voidage of the cells above.
+/// What flows through an end at which that is given, over the voidage of the cells next to it.
 void Flow::set_inlet(double t) {
   if (boundaries_.closed()) return;
   inlet_.set_velocity(t, fluid_.flux[1]);
-  for_each_boundary_row(grid_, 1, 0, [&](Index begin, Index end) {
-    for (auto c = std::size_t(begin); c < std::size_t(end); ++c)
-      fluid_.velocity[1][c] = fluid_.flux[1][c] / fluid_.voidage[c];
-  });
+  for (const int side : {0, 1}) {
+    if (side == 1 && boundaries_.has_outlet()) continue;
+    const auto inward = std::size_t(side) * std::size_t(grid_.stride(1));
+    for_each_boundary_row(grid_, 1, side, [&](Index begin, Index end) {
+      for (auto c = std::size_t(begin); c < std::size_t(end); ++c)
+        fluid_.velocity[1][c] = fluid_.flux[1][c] / fluid_.voidage[c - inward];
+    });
+  }
   core::hold_closed(grid_, fluid_.velocity);
 }
 
@@ -285,7 +289,7 @@ void Flow::gradient_of(const Field& p, core::FaceField& out) {
     for_each_boundary_row(grid_, axis, 0, [&](Index begin, Index end) {
       for (Index c = begin; c < end; ++c) g[std::size_t(c)] = g[std::size_t(c + s)];
     });
-    if (axis == 1 && !boundaries_.closed()) continue;  // the outlet moves
+    if (axis == 1 && boundaries_.has_outlet()) continue;  // the outlet moves
     for_each_boundary_row(grid_, axis, 1, [&](Index begin, Index end) {
       for (Index c = begin; c < end; ++c) g[std::size_t(c)] = g[std::size_t(c - s)];
     });

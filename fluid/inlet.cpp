@@ -96,6 +96,7 @@ std::vector<double> face_shares(const core::Grid& grid, const std::vector<double
 
 Inlet::Inlet(const core::Grid& grid, const core::Scene& scene) : grid_(grid) {
   if (scene.column.closed) return;
+  at_top_ = scene.inlet.at == core::ColumnEnd::top;
   const std::size_t faces = std::size_t(grid.cells[0]) * std::size_t(grid.cells[2]);
   parts_.push_back({Ramp(scene.inlet.superficial_velocity), std::vector<double>(faces, 1.0), 1});
   for (const core::Jet& jet : scene.jets) {
@@ -104,7 +105,7 @@ Inlet::Inlet(const core::Grid& grid, const core::Scene& scene) : grid_(grid) {
     parts_.push_back(std::move(part));
   }
   for (const core::Feed& feed : scene.feeds)
-    if (feed.at == core::FeedEnd::bottom)
+    if (feed.at == core::ColumnEnd::bottom)
       parts_.push_back({Ramp(feed.superficial_velocity), face_shares(grid, feed.from, feed.to), 0});
   for (Part& part : parts_) part.mean_share = mean_over_bottom(part.share);
 }
@@ -130,6 +131,11 @@ void Inlet::set(core::Field& faces, Value&& value) const {
       for (const Part& part : parts_) faces[std::size_t(c)] += part.share[face] * value(part.ramp);
     }
   });
+  if (!at_top_) return;
+  double mean = 0;
+  for (const Part& part : parts_) mean += part.mean_share * value(part.ramp);
+  for_each_boundary_row(grid_, 1, 1,
+                        [&](Index begin, Index end) { std::fill(faces.begin() + begin, faces.begin() + end, mean); });
 }
 
 void Inlet::set_velocity(double t, core::Field& flux) const {

@@ -37,18 +37,19 @@ class Ramp {
 [[nodiscard]] std::vector<double> face_shares(const core::Grid& grid, const std::vector<double>& from,
                                               const std::vector<double>& to);
 
-/// The bottom of a column. A jet takes its part of a face's area by overlap, so that what flows in does not depend on
-/// the grid; the rest of the face has the velocity of the distributor. Solids that
-/// are fed through the bottom are a part of the flux of the mixture and add to it.
+/// The bottom of a column, and its top where the flow is given there too: the same volume, spread evenly. A jet takes
+/// its part of a face's area by overlap, so that what flows in does not depend on the grid; the rest of the face has
+/// the velocity of the distributor. Solids that are fed through the bottom are a part of the flux of the mixture and
+/// add to it.
 class Inlet {
  public:
   Inlet() = default;
   /// Collective.
   Inlet(const core::Grid& grid, const core::Scene& scene);
 
-  /// Sets the bottom faces of the vertical flux at time t, m/s.
+  /// Sets the vertical flux at time t, m/s, on the faces where it is given.
   void set_velocity(double t, core::Field& flux) const;
-  /// Sets the bottom faces of its rate, m/s2.
+  /// Sets its rate, m/s2, there.
   void set_rate(double t, core::Field& rate) const;
   /// Mean over the bottom, m/s.
   [[nodiscard]] double mean_velocity(double t) const;
@@ -73,6 +74,7 @@ class Inlet {
 
   core::Grid grid_;
   std::vector<Part> parts_;  ///< the distributor first
+  bool at_top_ = false;
 };
 
 }  // namespace polybed::fluid

@@ -35,7 +35,7 @@ void Openings::add_gate(const core::Scene& scene, std::size_t species, Side side
   std::vector<double> covered(faces, 0.0), velocity(faces, 0.0);
   std::vector<Gate::Part> parts;
   for (const core::Feed& feed : scene.feeds) {
-    if (feed.species != scene.species[species].name || (feed.at == core::FeedEnd::top) != (side == top)) continue;
+    if (feed.species != scene.species[species].name || (feed.at == core::ColumnEnd::top) != (side == top)) continue;
     Gate::Part part{Ramp(feed.superficial_velocity, upward), face_shares(grid_, feed.from, feed.to)};
     for (std::size_t f = 0; f < faces; ++f) {
       covered[f] += part.share[f];

@@ -34,7 +34,7 @@ core::PoissonResult Pressure::solve(const FluxRate& rate, const core::FaceField&
 
 void set_outlet_pressure(const core::Grid& grid, const Boundaries& boundaries, Field& pressure) {
   boundaries.fill_cells(pressure);
-  if (boundaries.closed() || !grid.ends(1, 1)) return;
+  if (!boundaries.has_outlet() || !grid.ends(1, 1)) return;
   core::Box beyond = core::owned_cells(grid);
   beyond.lo[1] = grid.cells[1];
   beyond.hi[1] = grid.cells[1] + 1;

@@ -71,12 +71,12 @@ void warn_of_downflow(const core::Scene& scene, const relevance::FluidConstants&
                                    name, velocity,
                                    hangs ? "and the bed hangs from the top" : "and the bed is pressed down"));
   }
-  if (hangs && least_of(scene.inlet.superficial_velocity) < 0 && scene.column.cells[0] * scene.column.cells[2] > 1)
-    warnings.push_back(fmt::format(
+  if (hangs && least_of(scene.inlet.superficial_velocity) < 0 && scene.inlet.at == core::ColumnEnd::bottom &&
+      scene.column.cells[0] * scene.column.cells[2] > 1)
+    warnings.emplace_back(
         "a bed that hangs has no prescribed velocity above it: the fluid enters where the bed is thin, so that "
-        "a channel forms and the rest of the bed is up to a third too dense. Compute its mirror image, "
-        "whose steady bed is the same: density 2 rho_f - rho ({:.5g} kg/m3 for \"{}\") and the inlet upward",
-        2 * fluid.density - scene.species.front().density, scene.species.front().name));
+        "a channel forms and the rest of the bed is up to a third too dense: use inlet.at = \"top\", which spreads the "
+        "flow evenly there too");
 }
 
 void warn_of_floating_species(const core::Scene& scene, double density, Lines& warnings) {

@@ -58,7 +58,7 @@ Model::Model(const core::Scene& scene, core::Timers& timers, const std::shared_p
       options_(scene.tfm),
       momentum_(momentum_of(continuum_scene(scene))),
       equations_(scene, make_constants(scene, ranks),
-                 fluid::Boundaries(core::grid_of(scene.column, ranks), scene.column.closed,
+                 fluid::Boundaries(core::grid_of(scene.column, ranks), fluid::ends_of(scene),
                                    scene.column.outlet == core::Outlet::open),
                  fluid::Inlet(core::grid_of(scene.column, ranks), scene), make_discretisation(scene.tfm, momentum_),
                  timers),

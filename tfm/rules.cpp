@@ -61,7 +61,7 @@ Broken outlet_fed_shut(const Scene& scene) {
   std::map<std::string, std::vector<double>> fed;  // of each face, by species
   for (std::size_t n = 0; n < scene.feeds.size(); ++n) {
     const core::Feed& feed = scene.feeds[n];
-    if (feed.at != core::FeedEnd::top) continue;
+    if (feed.at != core::ColumnEnd::top) continue;
     const std::vector<double> share = fluid::face_shares(grid, feed.from, feed.to);
     std::vector<double>& sum = fed.try_emplace(feed.species, share.size(), 0.0).first->second;
     const bool was_shut = std::find(sum.begin(), sum.end(), 0.0) == sum.end();
@@ -165,8 +165,8 @@ const std::vector<core::Rule>& model_rules() {
        }},
       for_leaning_particles("column.shape", "in a round column",
                             [](const Scene& s) { return s.column.shape != core::ColumnShape::box; }),
-      for_leaning_particles("column.closed", "without column.closed = true",
-                            [](const Scene& s) { return !s.column.closed; }),
+      for_leaning_particles("column.closed", "without column.closed = true or inlet.at = \"top\"",
+                            [](const Scene& s) { return !s.column.closed && s.inlet.at == core::ColumnEnd::bottom; }),
       for_leaning_particles("column.sides", "with column.sides = \"periodic\"",
                             [](const Scene& s) { return s.column.sides == core::Boundary::periodic; }),
       for_leaning_particles("bed.start", "with bed.start = \"settled\"",

@@ -123,7 +123,8 @@ bool steps_are_implicit(const Scene& scene) {
   double inflow = fluid::Ramp(scene.inlet.superficial_velocity).greatest();
   for (const core::Jet& jet : scene.jets) inflow = std::max(inflow, fluid::Ramp(jet.superficial_velocity).greatest());
   for (const core::Feed& feed : scene.feeds)
-    if (feed.at == core::FeedEnd::bottom) inflow = std::max(inflow, fluid::Ramp(feed.superficial_velocity).greatest());
+    if (feed.at == core::ColumnEnd::bottom)
+      inflow = std::max(inflow, fluid::Ramp(feed.superficial_velocity).greatest());
   return scene.fluid.compressible() || (density && *density < relevance::lightest_liquid) || scene.column.closed ||
          inflow == 0;
 }

@@ -39,8 +39,8 @@ constexpr std::array<std::string_view, 6> names(StartKind) {
   return {"mixed", "layered", "settled", "random", "checkpoint:FILE", "list:FILE"};
 }
 
-enum class FeedEnd { bottom, top };
-constexpr std::array<std::string_view, 2> names(FeedEnd) { return {"bottom", "top"}; }
+enum class ColumnEnd { bottom, top };
+constexpr std::array<std::string_view, 2> names(ColumnEnd) { return {"bottom", "top"}; }
 
 /// What a scene is run for: means, or how they come about.
 enum class Purpose { steady, transient };

@@ -89,12 +89,15 @@ std::vector<Rule> gravity_rules() {
        [](const Scene& scene) {
          return broken_if(scene.fluid.present() && is_tilted(scene.column) && scene.fluid.compressible());
        }},
-      {{"column.gravity_direction", "column.size", "fluid.name", "column.closed", "inlet.superficial_velocity"},
-       "column.gravity_direction other than down needs a fluid that does not flow in, since the pressure at the "
-       "outlet is that of a level surface: use column.closed = true, without inlet.superficial_velocity and [[jet]]",
+      {{"column.gravity_direction", "column.size", "fluid.name", "column.closed", "inlet.superficial_velocity",
+        "inlet.at"},
+       "column.gravity_direction other than down needs a fluid whose flow is given at both ends, since the pressure at "
+       "an outlet is that of a level surface: use inlet.at = \"top\", or column.closed = true without "
+       "inlet.superficial_velocity and [[jet]]",
        [](const Scene& scene) {
          const bool inflow = !scene.inlet.superficial_velocity.empty() || !scene.jets.empty();
-         return broken_if(scene.fluid.present() && is_tilted(scene.column) && inflow && !scene.column.closed);
+         return broken_if(scene.fluid.present() && is_tilted(scene.column) && inflow && !scene.column.closed &&
+                          scene.inlet.at == ColumnEnd::bottom);
        }}};
 }
 

@@ -21,6 +21,7 @@ bool has_inlet(const Scene& scene) {
   return !scene.inlet.superficial_velocity.empty() || !scene.inlet.flow_rate.empty();
 }
 bool has_jets(const Scene& scene) { return !scene.jets.empty(); }
+bool is_given_at_the_top(const Scene& scene) { return scene.inlet.at == ColumnEnd::top; }
 bool is_compressible(const Scene& scene) { return scene.fluid.compressible(); }
 
 /// One rule for each of them. \param rests_on  keys beside their own
@@ -40,6 +41,7 @@ std::vector<Rule> without_a_fluid() {
   return cannot_act(
       {{"inlet.superficial_velocity", "inlet.superficial_velocity", has_inlet},
        {"jet.superficial_velocity", "[[jet]]", has_jets},
+       {"inlet.at", "inlet.at = \"top\"", is_given_at_the_top},
        {"fluid.temperature", "fluid.temperature", [](const Scene& s) { return bool(s.fluid.temperature); }},
        {"fluid.density", "fluid.density", [](const Scene& s) { return bool(s.fluid.density); }},
        {"fluid.viscosity", "fluid.viscosity", [](const Scene& s) { return bool(s.fluid.viscosity); }},
@@ -51,6 +53,7 @@ std::vector<Rule> in_a_closed_column() {
   return cannot_act(
       {{"inlet.superficial_velocity", "inlet.superficial_velocity", has_inlet},
        {"jet.superficial_velocity", "[[jet]]", has_jets},
+       {"inlet.at", "inlet.at = \"top\"", is_given_at_the_top},
        {"feed.species", "[[feed]]", [](const Scene& s) { return !s.feeds.empty(); }},
        {"column.outlet", "column.outlet = \"open\"", [](const Scene& s) { return s.column.outlet == Outlet::open; }}},
       [](const Scene& scene) { return scene.column.closed; }, ": column.closed = true", {"column.closed"});
@@ -59,6 +62,7 @@ std::vector<Rule> in_a_closed_column() {
 std::vector<Rule> in_a_sheared_box() {
   return cannot_act({{"inlet.superficial_velocity", "inlet.superficial_velocity", has_inlet},
                      {"jet.superficial_velocity", "[[jet]]", has_jets},
+                     {"inlet.at", "inlet.at = \"top\"", is_given_at_the_top},
                      {"dem.held", "dem.held = true", [](const Scene& s) { return s.bed.held; }},
                      {"fluid.equation_of_state", "fluid.equation_of_state", is_compressible}},
                     [](const Scene& scene) { return scene.column.shear_rate != 0 && scene.fluid.present(); },
@@ -125,31 +129,39 @@ std::vector<Rule> of_a_flow_rate() {
 }
 
 std::vector<Rule> of_the_fluid() {
-  return {{{"inlet.superficial_velocity", "fluid.name", "column.closed", "dem.shear_rate"},
-           "inlet.superficial_velocity is missing (or give inlet.flow_rate, or set column.closed = true)",
-           [](const Scene& scene) {
-             const bool flows = scene.fluid.present() && scene.column.shear_rate == 0;
-             return broken_if(flows && !scene.column.closed && !has_inlet(scene));
-           }},
-          {{"fluid.equation_of_state", "fluid.name"},
-           "fluid.equation_of_state = \"ideal_gas\": water is a liquid; \"tait\" is the law of a compressible liquid",
-           [](const Scene& scene) {
-             return broken_if(scene.fluid.equation_of_state == Compressibility::ideal_gas &&
-                              scene.fluid.substance() == Substance::water);
-           }},
-          {{"fluid.equation_of_state", "fluid.name"},
-           "fluid.equation_of_state = \"tait\": air is a gas; \"ideal_gas\" is its law",
-           [](const Scene& scene) {
-             return broken_if(scene.fluid.equation_of_state == Compressibility::tait &&
-                              scene.fluid.substance() == Substance::air);
-           }},
-          {{"dem.held", "fluid.name"},
-           "dem.held = true is a fixed bed for a fluid to flow through: fluid.name is \"none\"",
-           [](const Scene& scene) { return broken_if(scene.bed.held && !scene.fluid.present()); }},
-          is_a_range("velocity_range", &Chooser::velocity_range),
-          is_a_range("temperature_range", &Chooser::temperature_range),
-          is_a_bracket("measured", &Inversion::measured),
-          is_a_bracket("simulated", &Inversion::simulated)};
+  return {
+      {{"inlet.superficial_velocity", "fluid.name", "column.closed", "dem.shear_rate"},
+       "inlet.superficial_velocity is missing (or give inlet.flow_rate, or set column.closed = true)",
+       [](const Scene& scene) {
+         const bool flows = scene.fluid.present() && scene.column.shear_rate == 0;
+         return broken_if(flows && !scene.column.closed && !has_inlet(scene));
+       }},
+      {{"inlet.at", "column.outlet"},
+       "inlet.at = \"top\" and column.outlet = \"open\" contradict each other: what spreads the fluid holds the "
+       "solids back",
+       [](const Scene& scene) { return broken_if(is_given_at_the_top(scene) && scene.column.outlet == Outlet::open); }},
+      {{"inlet.at", "fluid.equation_of_state"},
+       "inlet.at = \"top\" and a compressible fluid contradict each other: its pressure is given at the top",
+       [](const Scene& scene) { return broken_if(is_given_at_the_top(scene) && is_compressible(scene)); }},
+      {{"fluid.equation_of_state", "fluid.name"},
+       "fluid.equation_of_state = \"ideal_gas\": water is a liquid; \"tait\" is the law of a compressible liquid",
+       [](const Scene& scene) {
+         return broken_if(scene.fluid.equation_of_state == Compressibility::ideal_gas &&
+                          scene.fluid.substance() == Substance::water);
+       }},
+      {{"fluid.equation_of_state", "fluid.name"},
+       "fluid.equation_of_state = \"tait\": air is a gas; \"ideal_gas\" is its law",
+       [](const Scene& scene) {
+         return broken_if(scene.fluid.equation_of_state == Compressibility::tait &&
+                          scene.fluid.substance() == Substance::air);
+       }},
+      {{"dem.held", "fluid.name"},
+       "dem.held = true is a fixed bed for a fluid to flow through: fluid.name is \"none\"",
+       [](const Scene& scene) { return broken_if(scene.bed.held && !scene.fluid.present()); }},
+      is_a_range("velocity_range", &Chooser::velocity_range),
+      is_a_range("temperature_range", &Chooser::temperature_range),
+      is_a_bracket("measured", &Inversion::measured),
+      is_a_bracket("simulated", &Inversion::simulated)};
 }
 
 }  // namespace

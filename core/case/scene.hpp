@@ -123,6 +123,7 @@ struct Inlet {
   std::vector<std::pair<double, double>> superficial_velocity;
   /// (time s, volume flow m3/s). resolve() converts it to the superficial velocity and clears it.
   std::vector<std::pair<double, double>> flow_rate;
+  ColumnEnd at = ColumnEnd::bottom;  ///< top: the flow is given there too, instead of the pressure
 };
 
 /// A part of the bottom with a velocity of its own.
@@ -143,7 +144,7 @@ struct InnerWall {
 /// Solids of one species that are fed through the bottom or the top, everywhere or in a part of it.
 struct Feed {
   std::string species;
-  FeedEnd at = FeedEnd::bottom;
+  ColumnEnd at = ColumnEnd::bottom;
   std::vector<std::pair<double, double>>
       superficial_velocity;      ///< solids volume per area and time, m/s, into the column
   double velocity = 0;           ///< of the particles as they enter, m/s

@@ -37,7 +37,8 @@ Table column_table() {
           key(&Column::gravity, "gravity", dimension::acceleration, range(0, 1e3), help("acceleration of gravity")),
           key(&Column::gravity_direction, "gravity_direction", range(-1e6, 1e6),
               help("of gravity, of any length, in the order of size: along width and height, or width, depth "
-                   "and height; default: down; for the TFM another one needs column.closed = true and walls")),
+                   "and height; default: down; for the TFM another one needs column.closed = true or inlet.at = "
+                   "\"top\", and walls")),
           key(&Column::outlet, "outlet",
               help("top of the column: a screen that holds solids, or open to them: they leave and are counted")),
           key(&Column::closed, "closed", help("walls all round: no inlet and no outlet")),
@@ -165,6 +166,9 @@ Table inlet_table() {
               help(
                   "in place of the velocity: volume over time through the whole bottom, a flow or a table as there; in "
                   "two dimensions with column.depth")),
+          key(&Inlet::at, "at",
+              help("where the flow is spread evenly, upward above 0: bottom, and the pressure is given at the top; or "
+                   "top and bottom alike, for a fluid that enters at the top (a velocity below 0)")),
       });
 }
 

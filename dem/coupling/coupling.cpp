@@ -106,7 +106,7 @@ Coupling::Coupling(const core::Scene& scene, const Materials& materials, std::sh
       fraction_(materials.species().size(), core::make_field(flow_.grid())),
       at_ends_(core::make_field(flow_.grid())),
       width_(width_of(scene, materials, count)),
-      smoothing_(core::whole_column(flow_.grid()), width_, scene.column.closed),
+      smoothing_(core::whole_column(flow_.grid()), width_, !flow_.boundaries().has_outlet()),
       forces_(scene, materials, flow_.constants().density, flow_.constants().viscosity),
       sides_(scene, materials, flow_.constants().density, flow_.constants().viscosity, dt, every_of(scene) * dt),
       phase_(flow_.grid(), has_inertia()),
@@ -227,7 +227,7 @@ void Coupling::collect(const Particles& particles) {
   else
     scatter_.collect(particles, motion_.load, interval());
   if (exchange_) exchange_->choose(particles);
-  scatter_.give(ranks_.get(), exchange_ ? &*exchange_ : nullptr, !flow_.boundaries().closed(), phase_, fraction_);
+  scatter_.give(ranks_.get(), exchange_ ? &*exchange_ : nullptr, flow_.boundaries().has_outlet(), phase_, fraction_);
   if (smoothing_.present()) smooth_sums();
   require_voidage();
 }

@@ -80,7 +80,7 @@ FluidOutput::FluidOutput(const Coupling& coupling, std::vector<std::string> spec
                          const std::filesystem::path& directory, std::optional<double> resume_time)
     : species_(species.size()),
       smoothing_(core::whole_column(coupling.flow().grid()), coupling.kernel_width(),
-                 coupling.flow().boundaries().closed()),
+                 !coupling.flow().boundaries().has_outlet()),
       round_(coupling.gather().round()),
       fields_(directory, core::whole_column(coupling.flow().grid()),
               field_names(species, coupling.flow().compressible() != nullptr), resume_time) {}

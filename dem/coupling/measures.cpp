@@ -10,8 +10,8 @@ namespace polybed::dem {
 using core::Field;
 using core::Index;
 
-/// What the particles' halves of cells at the bottom, and at a closed top, take from the fluid: no fluid moves on those
-/// faces that could show it in its pressure.
+/// What the particles' halves of cells at the bottom, and at a top without an outlet, take from the fluid: no fluid
+/// moves on those faces that could show it in its pressure.
 void Coupling::weigh() {
   const core::Grid& grid = flow_.grid();
   const double dt = interval();
@@ -22,7 +22,7 @@ void Coupling::weigh() {
     });
   };
   rows(0);
-  if (flow_.boundaries().closed()) rows(1);
+  if (!flow_.boundaries().has_outlet()) rows(1);
 }
 
 double Coupling::most_solids() const {
@@ -41,7 +41,7 @@ double Coupling::pressure_drop() const {
   const core::Grid& grid = flow_.grid();
   const double h = grid.spacing[1];
   const Field& p = flow_.state().pressure;
-  const double at_top = flow_.boundaries().closed() ? 1 : 0.5;  // p = 0 half a cell above an outlet
+  const double at_top = flow_.boundaries().has_outlet() ? 0.5 : 1;  // p = 0 half a cell above an outlet
   double sum = 0;
   core::with_metric(grid, [&](const auto& metric) {
     const auto add_row = [&](int j, double share) {

@@ -42,6 +42,7 @@ def on(role, law=None):
 
 
 AIR, TILTED = ["fluid.name=air", "fluid.equation_of_state=ideal_gas"], "column.gravity_direction=[1,-1]"
+AT_TOP = ('inlet.at = "top"', "inlet.at=top")
 JOINED, SHEARED = "column.ends=periodic", "dem.shear_rate=1"
 FLOW = ["inlet.superficial_velocity=!", "inlet.flow_rate=1e-5"]
 SIZES = 'species=[{name="fine", density=1395, distribution="lognormal", median=1e-8, deviation=1}]'
@@ -72,8 +73,8 @@ KEYS = {
     "species.diameter: {} m is more than the {} of the column, {} m": ["column.size=[0.0007, 0.2]"],
     "column.gravity_direction other than down and a compressible fluid contradict each other: its density at rest falls with height; use "
     'fluid.equation_of_state = "incompressible"': [*AIR, TILTED],
-    "column.gravity_direction other than down needs a fluid that does not flow in, since the pressure at the outlet is that of a level "
-    "surface: use column.closed = true, without inlet.superficial_velocity and [[jet]]": [TILTED],
+    "column.gravity_direction other than down needs a fluid whose flow is given at both ends, since the pressure at an outlet is that of a "
+    'level surface: use inlet.at = "top", or column.closed = true without inlet.superficial_velocity and [[jet]]': [TILTED],
     **{f'column.ends = "periodic" and {what} contradict each other': [JOINED, setting] for what, setting in (
         ("column.closed = true", "column.closed=true"), ('column.outlet = "open"', "column.outlet=open"), ("[[feed]]", feeds("")))},
     'column.ends = "periodic" is for particles without a fluid, or for a sheared box whose fluid moves with its flow: set '
@@ -111,15 +112,18 @@ KEYS = {
     **LAYERS,
     **FEEDS,
     'bed.start = "{}": no such file in the working directory or beside the case file': [*COUNTED, "bed.start=list:none.csv"],
+    'inlet.at = "top" and column.outlet = "open" contradict each other: what spreads the fluid holds the solids back': [
+        AT_TOP[1], "column.outlet=open"],
+    'inlet.at = "top" and a compressible fluid contradict each other: its pressure is given at the top': [AT_TOP[1], *AIR],
     **{f'{what} cannot act: fluid.name = "none"': [DRY, setting] for what, setting in (
-        ("inlet.superficial_velocity", "inlet.superficial_velocity=0.1"), ("[[jet]]", jets(([0.01], [0.02]))),
+        ("inlet.superficial_velocity", "inlet.superficial_velocity=0.1"), ("[[jet]]", jets(([0.01], [0.02]))), AT_TOP,
         ("fluid.temperature", "fluid.temperature=300"), ("fluid.density", "fluid.density=1"), ("fluid.viscosity", "fluid.viscosity=1"),
         ("fluid.equation_of_state", "fluid.equation_of_state=tait"))},
     **{f"{what} cannot act: column.closed = true": ["column.closed=true", setting] for what, setting in (
-        ("inlet.superficial_velocity", "inlet.superficial_velocity=0.1"), ("[[jet]]", jets(([0.01], [0.02]))), ("[[feed]]", feeds("")),
+        ("inlet.superficial_velocity", "inlet.superficial_velocity=0.1"), ("[[jet]]", jets(([0.01], [0.02]))), AT_TOP, ("[[feed]]", feeds("")),
         ('column.outlet = "open"', "column.outlet=open"))},
     **{f"{what} cannot act in a sheared box: its fluid moves with its flow": [SHEARED, setting] for what, setting in (
-        ("inlet.superficial_velocity", "inlet.superficial_velocity=0.1"), ("[[jet]]", jets(([0.01], [0.02]))),
+        ("inlet.superficial_velocity", "inlet.superficial_velocity=0.1"), ("[[jet]]", jets(([0.01], [0.02]))), AT_TOP,
         ("dem.held = true", "dem.held=true"), ("fluid.equation_of_state", "fluid.equation_of_state=tait"))},
     **{f'bed.{key} cannot act: bed.start = "{{}}"': ["bed.start=list:none.csv", f"bed.{key}={value}"] for key, value in (
         ("start_solids_fraction", 0.2), ("volume_share", [1.0]), ("static_height", 0.06), ("particles", [10]))},
@@ -168,7 +172,7 @@ ONE_MODEL = {
     'column.ends = "periodic"' + TFM_CANNOT: [*NO_FLUID, JOINED],
     "dem.shear_rate other than 0" + TFM_CANNOT: [*NO_FLUID, JOINED, "column.sides=periodic", "column.gravity=0", SHEARED],
     'bed.start = "{}"' + TFM_CANNOT: ["bed.start=random"],
-    "column.gravity_direction other than down without column.closed = true" + TFM_CANNOT: [*NO_FLUID, TILTED],
+    'column.gravity_direction other than down without column.closed = true or inlet.at = "top"' + TFM_CANNOT: [*NO_FLUID, TILTED],
     'column.gravity_direction other than down with column.sides = "periodic"' + TFM_CANNOT: [*NO_FLUID, TILTED, "column.sides=periodic"],
     'column.gravity_direction other than down with bed.start = "settled"' + TFM_CANNOT: [*NO_FLUID, TILTED, "bed.start=settled"],
     'column.outlet = "open" in a compressible fluid: polybed tfm can run it, polybed dem cannot: the mass of the fluid that takes the place '

@@ -21,8 +21,8 @@ class BoxEquations : public core::OdeProblem {
  public:
   BoxEquations(const core::Scene& scene, const tfm::Constants& constants, tfm::Discretisation discretisation,
                double pressure_tolerance)
-      : equations_(scene, constants, fluid::Boundaries(constants.grid, true), fluid::Inlet(constants.grid, scene),
-                   discretisation, timers_),
+      : equations_(scene, constants, fluid::Boundaries(constants.grid, fluid::Ends::walls),
+                   fluid::Inlet(constants.grid, scene), discretisation, timers_),
         layout_(constants.grid, int(constants.species()), false),
         pressure_(constants.grid, pressure_tolerance) {}
 

@@ -51,5 +51,46 @@ TEST(LeaningColumn, OnItsSideIsAnUprightOneTurned) {
   EXPECT_LT(apart, 1e-12);
 }
 
+/// A bed of one species between two distributors after 0.2 s, from the bottom, or of the same turned over from the top.
+std::vector<double> bed_of_one(bool turned_over) {
+  core::Scene scene = binary_bed(8, 24, 24e-3, 72e-3);
+  scene.species.resize(1);
+  scene.bed.volume_share = {1};
+  scene.effects.erase("partition");
+  scene.effects.erase("species_exchange");
+  scene.effects["drag"] = "di_felice";
+  scene.bed.solids_fraction = scene.bed.start_solids_fraction = 0.3;
+  scene.bed.static_height = 72e-3;
+  scene.inlet.at = core::ColumnEnd::top;
+  scene.inlet.superficial_velocity = {{0, 0.02}, {0.1, 0.02}, {0.1, 0.03}};
+  scene.tfm.max_packing = 0.62;
+  scene.tfm.fixed_step = 1e-3;
+  scene.tfm.pressure_tolerance = 1e-13;
+  if (turned_over) {
+    scene.column.down = {0, 1, 0};
+    for (auto& [time, velocity] : scene.inlet.superficial_velocity) velocity = -velocity;
+  }
+  core::Timers timers;
+  tfm::Model model(scene, timers);
+  const auto up = [&](int j) { return turned_over ? 23 - j : j; };
+  make_uneven(model, [&](int i, int j, int) { return 1 + 0.2 * std::sin(0.4 * up(j)) + 0.1 * std::cos(0.9 * i); });
+  advance(model, 0.2);
+  std::vector<double> phi;
+  for (int j = 0; j < 24; ++j)
+    for (int i = 0; i < 8; ++i)
+      phi.push_back(model.fields().solids.fraction[0][std::size_t(model.constants().grid.index(i, up(j)))]);
+  return phi;
+}
+
+// 200 steps of one length, a jump of the inlet among them; 1e-12: as above.
+TEST(LeaningColumn, BetweenTwoDistributorsABedAndItsMirrorImageAreOne) {
+  const std::vector<double> one = bed_of_one(false), other = bed_of_one(true);
+  double apart = 0;
+  for (std::size_t c = 0; c < one.size(); ++c) apart = std::max(apart, std::abs(one[c] - other[c]));
+  record("greatest difference of a fraction between two distributors", apart);
+  EXPECT_LT(apart, 1e-12);
+  EXPECT_GT(*std::max_element(one.begin(), one.end()) - *std::min_element(one.begin(), one.end()), 0.1);
+}
+
 }  // namespace
 }  // namespace polybed::scenes

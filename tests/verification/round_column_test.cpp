@@ -121,7 +121,7 @@ TEST_P(RoundBed, CountsWhatEntersAndLeaves) {
   scene.inlet.superficial_velocity = {{0.0, 0.06}};
   const std::vector<double> low = rings ? std::vector{0.004} : std::vector{0.0045, 0.0045},  // over cells that are cut
       high = rings ? std::vector{0.008} : std::vector{0.009, 0.01};
-  scene.feeds.push_back({"fine", core::FeedEnd::bottom, {{0.0, 0.004}}, 0.05, low, high});
+  scene.feeds.push_back({"fine", core::ColumnEnd::bottom, {{0.0, 0.004}}, 0.05, low, high});
   core::Timers timers;
   tfm::Model model(scene, timers);
   model.show(0);

@@ -62,7 +62,7 @@ class Column : public testing::Test {
  protected:
   Column() : solids_(grid_, {2000.0}), fluid_(grid_) { std::fill(fluid_.voidage.begin(), fluid_.voidage.end(), 1.0); }
   Compressible make(bool closed, double gravity = 0) {
-    boundaries_ = Boundaries(grid_, closed);
+    boundaries_ = Boundaries(grid_, closed ? Ends::walls : Ends::outlet);
     const double density = relevance::fluid_constants(air_at(atmosphere)).density;
     Compressible air(grid_, boundaries_, equation_of_state(air_at(atmosphere), density), atmosphere, density, gravity);
     air.make_fields(fluid_);

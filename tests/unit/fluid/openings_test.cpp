@@ -23,8 +23,8 @@ core::Scene scene_with_feeds() {
   scene.species[0].name = "a";
   scene.species[1].name = "b";
   scene.column.outlet = core::Outlet::open;
-  scene.feeds.push_back({"a", core::FeedEnd::bottom, {{0.0, 0.01}, {1.0, 0.03}}, 0.1, {0.005}, {0.02}});
-  scene.feeds.push_back({"b", core::FeedEnd::top, {{0.0, 0.004}}, 0.2, {}, {}});
+  scene.feeds.push_back({"a", core::ColumnEnd::bottom, {{0.0, 0.01}, {1.0, 0.03}}, 0.1, {0.005}, {0.02}});
+  scene.feeds.push_back({"b", core::ColumnEnd::top, {{0.0, 0.004}}, 0.2, {}, {}});
   return scene;
 }
 

@@ -58,7 +58,7 @@ TEST(Vorticity, HoldsNextToAWallThatHoldsTheFluid) {
   core::FaceField velocity = core::make_face_field(grid);
   for (int j = 0; j < grid.cells[1]; ++j)
     for (int i = 0; i <= grid.cells[0]; ++i) velocity[0][std::size_t(grid.index(i, j))] = 3 * grid.centre(1, j);
-  Boundaries(grid, true).fill_velocity(velocity, WallSlip::no_slip);
+  Boundaries(grid, Ends::walls).fill_velocity(velocity, WallSlip::no_slip);
   std::array<core::Field, 3> omega;
   find_vorticity(grid, velocity, omega);
   EXPECT_NEAR(omega[2][std::size_t(grid.index(3, 0))], -3, round_off);

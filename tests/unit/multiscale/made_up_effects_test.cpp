@@ -160,7 +160,7 @@ TEST(MadeUpStress, IsMadeAndEvaluated) {
   core::Timers timers;
   const tfm::Model bare(scene, timers);
   tfm::Fields fields = bare.fields();
-  const fluid::Boundaries boundaries(bare.constants().grid, scene.column.closed);
+  const fluid::Boundaries boundaries(bare.constants().grid, fluid::ends_of(scene));
   EXPECT_EQ(tfm::make_effects(scene, bare.constants(), boundaries, fields, list).solids_stress, nullptr);
   scene.effects["foam"] = "linear";
   const tfm::Effects made = tfm::make_effects(scene, bare.constants(), boundaries, fields, list);

@@ -72,7 +72,7 @@ TEST(FastDrag, IsThatOfOneFaceByHand) {
   constants.density = {2000, 1500};
   constants.bed_share = {0.75, 0.25};
   constants.fluid.density = 1000;
-  const fluid::Boundaries boundaries(constants.grid, true);
+  const fluid::Boundaries boundaries(constants.grid, fluid::Ends::walls);
   const StateLayout layout(constants.grid, 2, false);
   Fields fields(constants);
   std::fill(fields.fluid.voidage.begin(), fields.fluid.voidage.end(), 0.6);
