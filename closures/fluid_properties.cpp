@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 
@@ -13,9 +14,10 @@ constexpr double zero_celsius = 273.15;
 
 void check_range(const char* fluid, double kelvin, double least, double most) {
   if (kelvin >= least && kelvin <= most) return;
-  throw std::out_of_range(std::string("temperature of ") + fluid + ": " + std::to_string(kelvin - zero_celsius) +
-                          " degC is outside " + std::to_string(int(std::lround(least - zero_celsius))) + " to " +
-                          std::to_string(int(std::lround(most - zero_celsius))) + " degC");
+  std::ostringstream message;
+  message << "temperature of " << fluid << ": " << kelvin - zero_celsius << " degC is outside "
+          << std::lround(least - zero_celsius) << " to " << std::lround(most - zero_celsius) << " degC";
+  throw std::out_of_range(message.str());
 }
 
 }  // namespace
