@@ -1,139 +1,33 @@
-// polybed measure: what is read off the profiles of a run, or off those that are given: one definition for every study.
+// polybed measure: what is read off the profiles of a run, and means over a window of it: one definition for every
+// study.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <iostream>
 #include <iterator>
+#include <limits>
 #include <nlohmann/json.hpp>
-#include <set>
+#include <numeric>
 
 #include "app/commands.hpp"
-#include "app/measure_means.hpp"
 #include "app/measure_text.hpp"
 #include "core/error.hpp"
 #include "core/output/files.hpp"
 #include "core/output/json.hpp"
 #include "core/output/output.hpp"
 #include "core/print.hpp"
-#include "measures/bed_table.hpp"
 
 namespace polybed::app {
 
 namespace {
 
 using measures::Profile;
+using measures::StoredRun;
 using Values = std::vector<measures::Value>;
-using Column = MeasuredColumn;
-
-/// The request: a run, or profiles without times.
-struct Asked : measures::StoredRun {
-  std::optional<Profile> reference;
-};
+using Numbers = std::vector<double>;
 
 // ---- reading
-
-double finite(const core::Json& value) {
-  const double number = core::number_of(value);
-  if (!std::isfinite(number)) throw core::FileError("a number is not finite");
-  return number;
-}
-
-/// What `read` returns; an error says of what it is.
-template <class Read>
-auto naming(const std::string& what, const Read& read) {
-  try {
-    return read();
-  } catch (const core::FileError& error) {
-    throw core::FileError(fmt::format("{}: {}", what, error.what()));
-  }
-}
-
-const core::Json* member(const core::Json& value, const std::string& name) {
-  const auto found = value.find(name);
-  return found == value.end() || found->is_null() ? nullptr : &*found;
-}
-
-template <class Member>
-auto of(const core::Json& value, const std::string& name, const Member& read) {
-  const core::Json& found = core::member_of(value, name);
-  return naming(name, [&] { return read(found); });
-}
-
-std::vector<double> numbers(const core::Json& value) {
-  std::vector<double> found;
-  for (const core::Json& number : core::array_of(value)) found.push_back(finite(number));
-  return found;
-}
-
-double thickness(const core::Json& value) {
-  const double slab = finite(value);
-  if (!(slab > 0)) throw core::FileError(fmt::format("{} m is no thickness of a slab", slab));
-  return slab;
-}
-
-Profile read_profile(const core::Json& value, std::size_t species) {
-  Profile profile;
-  profile.slab = of(value, "slab", thickness);
-  profile.fraction = of(value, "fraction", [](const core::Json& rows) {
-    std::vector<std::vector<double>> found;
-    for (const core::Json& row : core::array_of(rows)) found.push_back(numbers(row));
-    return found;
-  });
-  if (profile.fraction.size() != species)
-    throw core::FileError(fmt::format("fraction: {} rows for {} species", profile.fraction.size(), species));
-  for (const auto& phi : profile.fraction)
-    if (phi.empty() || phi.size() != profile.slabs())
-      throw core::FileError("fraction: its rows are empty or of different length");
-  if (member(value, "pressure") != nullptr) profile.pressure = of(value, "pressure", numbers);
-  if (!profile.pressure.empty() && profile.pressure.size() != profile.slabs())
-    throw core::FileError(fmt::format("pressure: {} values for {} slabs", profile.pressure.size(), profile.slabs()));
-  return profile;
-}
-
-std::vector<std::string> read_species(const core::Json& value) {
-  std::vector<std::string> names;
-  for (const core::Json& name : core::array_of(value)) names.push_back(core::text_of(name));
-  if (names.empty()) throw core::FileError("none is named");
-  if (std::set<std::string>(names.begin(), names.end()).size() < names.size())
-    throw core::FileError("a name stands twice");
-  return names;
-}
-
-void require_slabs_of_reference(const Asked& asked) {
-  for (std::size_t n = 0; asked.reference && n < asked.beds.size(); ++n) {
-    const Profile &profile = asked.beds[n].profile, &reference = *asked.reference;
-    if (profile.slabs() != reference.slabs() || std::abs(profile.slab - reference.slab) > 1e-9 * reference.slab)
-      throw core::FileError(fmt::format("profiles[{}]: {} slabs of {} m, the reference has {} of {} m", n,
-                                        profile.slabs(), profile.slab, reference.slabs(), reference.slab));
-  }
-}
-
-Asked read_asked(const core::Json& value) {
-  Asked asked;
-  asked.species = of(value, "species", read_species);
-  const std::vector<core::Json>& profiles =
-      of(value, "profiles", [](const auto& v) { return std::cref(core::array_of(v)); });
-  for (std::size_t n = 0; n < profiles.size(); ++n)
-    asked.beds.push_back(
-        {naming(fmt::format("profiles[{}]", n), [&] { return read_profile(profiles[n], asked.species.size()); })});
-  if (const core::Json* reference = member(value, "reference"))
-    asked.reference = naming("reference", [&] { return read_profile(*reference, asked.species.size()); });
-  require_slabs_of_reference(asked);
-  return asked;
-}
-
-/// What is made of the JSON of a file, or of standard input.
-template <class Make>
-auto of_given(const std::string& file, const Make& make) {
-  if (file != "-") {
-    const core::Json value = core::read_json(file);
-    return naming(file, [&] { return make(value); });
-  }
-  const std::string text{std::istreambuf_iterator<char>(std::cin), {}};
-  return naming("standard input", [&] { return make(core::parse_json(text)); });
-}
 
 /// In the order of the case, which the columns of the history keep.
 std::vector<std::string> species_of(const std::filesystem::path& run, const core::Profiles& profiles,
@@ -150,43 +44,42 @@ std::vector<std::string> species_of(const std::filesystem::path& run, const core
   return stored;
 }
 
-Asked read_run(const std::filesystem::path& run) {
-  if (!std::filesystem::is_directory(run)) throw core::FileError(run.string() + ": no such run directory");
-  const core::Profiles stored = core::read_profiles(run);
-  Asked asked;
-  if (std::filesystem::exists(run / "history.csv")) asked.history = core::read_history(run);
-  asked.species = species_of(run, stored, asked.history.columns);
-  asked.time = stored.time;
+StoredRun read_run(const std::filesystem::path& directory) {
+  if (!std::filesystem::is_directory(directory)) throw core::FileError(directory.string() + ": no such run directory");
+  const core::Profiles stored = core::read_profiles(directory);
+  StoredRun run;
+  if (std::filesystem::exists(directory / "history.csv")) run.history = core::read_history(directory);
+  run.species = species_of(directory, stored, run.history.columns);
+  run.time = stored.time;
   const std::size_t slabs = stored.height.size();
   const auto row_of = [&](const std::string& name, std::size_t n) {
     const std::vector<double>& all = stored.of(name).values;
     if (slabs == 0 || all.size() != stored.time.size() * slabs)
       throw core::FileError(fmt::format("{}: {} has {} values for {} times and {} slabs",
-                                        (run / "profiles.h5").string(), name, all.size(), stored.time.size(), slabs));
+                                        (directory / "profiles.h5").string(), name, all.size(), stored.time.size(),
+                                        slabs));
     const auto begin = all.begin() + std::ptrdiff_t(n * slabs);
     return std::vector<double>(begin, begin + std::ptrdiff_t(slabs));
   };
   const bool has_pressure = std::find(stored.names.begin(), stored.names.end(), "p") != stored.names.end();
   for (std::size_t n = 0; n < stored.time.size(); ++n) {
     Profile profile;
-    for (const std::string& name : asked.species) profile.fraction.push_back(row_of("phi_" + name, n));
+    for (const std::string& name : run.species) profile.fraction.push_back(row_of("phi_" + name, n));
     if (has_pressure) profile.pressure = row_of("p", n);
     profile.slab = 2 * stored.height.front();
-    asked.beds.push_back({std::move(profile)});
+    run.beds.push_back({std::move(profile)});
   }
-  return asked;
+  return run;
 }
 
 // ---- measuring
 
-/// \param of  what a measure is read off, by the bed
-template <class Source, class Of>
-std::vector<Column> columns_of(const measures::Table<Source>& table, const Asked& asked, const Of& of) {
-  std::vector<Column> found;
-  for (const measures::Single<Source>& measure : measures::singles(table, asked.species)) {
+std::vector<MeasuredColumn> measured(const StoredRun& run) {
+  std::vector<MeasuredColumn> found;
+  for (const auto& measure : singles(read_by(&measures::Readers::profile, measures::bed_table()), run.species)) {
     Values values;
-    for (const measures::Bed& bed : asked.beds) {
-      const measures::Value value = measure.of(of(bed));
+    for (const measures::Bed& bed : run.beds) {
+      const measures::Value value = measure.of(bed);
       values.push_back(value && std::isfinite(*value) ? value : std::nullopt);
     }
     found.push_back({measure.name, measure.unit, measure.help, measure.column(), std::move(values)});
@@ -194,76 +87,161 @@ std::vector<Column> columns_of(const measures::Table<Source>& table, const Asked
   return found;
 }
 
-std::vector<Column> measured(const Asked& asked) {
-  return columns_of(measures::read_by(&measures::Readers::profile, measures::bed_table()), asked,
-                    [](const measures::Bed& bed) -> const measures::Bed& { return bed; });
+/// The same after the time.
+std::vector<MeasuredColumn> in_time(const StoredRun& run) {
+  std::vector<MeasuredColumn> columns = measured(run);
+  columns.insert(columns.begin(), {"time", "s", {}, "time_s", Values(run.time.begin(), run.time.end())});
+  return columns;
 }
 
-std::vector<Column> distances(const Asked& asked) {
-  if (!asked.reference) return {};
-  return columns_of(measures::distance_table(), asked, [&](const measures::Bed& bed) {
-    return measures::Beside{bed.profile, *asked.reference};
-  });
+core::Json json_of(const measures::Means& means, bool in_time) {
+  core::Json json = core::Json::object();
+  for (const auto& [name, mean] : means) {
+    json[name] = {{"mean", mean.mean}, {"interval", core::or_null(mean.interval)}};
+    if (in_time) json[name]["correlation_rows"] = mean.correlation;
+  }
+  return json;
+}
+
+core::Json json_of(const measures::StoredRun& run, const measures::InWindow& found) {
+  core::Json fraction = core::Json::object();
+  for (std::size_t j = 0; j < run.species.size(); ++j) {
+    core::Json mean = core::Json::array(), interval = core::Json::array();
+    for (std::size_t k = 0; found.profiles > 0 && k < found.height.size(); ++k) {
+      mean.push_back(found.mean[j][k].mean);
+      interval.push_back(core::or_null(found.mean[j][k].interval));
+    }
+    fraction[run.species[j]] = {{"mean", mean}, {"interval", interval}};
+  }
+  return {
+      {"rows", found.rows},
+      {"step_s", found.step},
+      {"means", json_of(found.means, true)},
+      {"profiles", found.profiles},
+      {"mean_profile", {{"y_m", found.height}, {"fraction", fraction}, {"measures", json_of(found.of_mean, false)}}}};
+}
+
+/// Numbers; NaN for null.
+Numbers numbers_of(const core::Json& value) {
+  Numbers found;
+  for (const core::Json& number : core::array_of(value))
+    found.push_back(number.is_null() ? std::numeric_limits<double>::quiet_NaN() : core::number_of(number));
+  return found;
+}
+
+/// By its values without each of the groups of rows.
+template <class Function>
+core::Json interval_of(std::size_t rows, const Function& function) {
+  std::vector<measures::Value> values;
+  for (const measures::Rows& group : measures::groups_of(rows)) values.push_back(function(group));
+  return core::or_null(measures::jackknife_interval(values));
+}
+
+core::Json means_of(const Numbers& values) {
+  const std::optional<measures::TimeMean> mean = measures::time_mean(values);
+  if (!mean) return nullptr;
+  return {{"mean", mean->mean},
+          {"interval", core::or_null(mean->interval)},
+          {"interval_of_repeats", core::or_null(measures::interval_of_repeats(values))},
+          {"deviation", measures::deviation_of(values)},
+          {"deviation_interval", interval_of(values.size(), [&](const measures::Rows& group) {
+             return measures::deviation_of(measures::without(values, group));
+           })}};
+}
+
+core::Json ratio_of(const Numbers& above, const Numbers& below) {
+  if (above.empty() || above.size() != below.size()) throw core::FileError("a ratio of rows that are not pairs");
+  const auto ratio = [](const Numbers& a, const Numbers& b) {
+    return std::accumulate(a.begin(), a.end(), 0.0) / std::accumulate(b.begin(), b.end(), 0.0);
+  };
+  return {{"value", ratio(above, below)}, {"interval", interval_of(above.size(), [&](const measures::Rows& group) {
+                                             return ratio(measures::without(above, group),
+                                                          measures::without(below, group));
+                                           })}};
+}
+
+core::Json means_of_series(const core::Json& asked) {
+  core::Json found = {{"series", core::Json::array()}, {"ratios", core::Json::array()}};
+  if (asked.contains("series"))
+    for (const core::Json& values : core::array_of(asked["series"]))
+      found["series"].push_back(means_of(numbers_of(values)));
+  if (asked.contains("ratios"))
+    for (const core::Json& pair : core::array_of(asked["ratios"]))
+      found["ratios"].push_back(
+          ratio_of(numbers_of(core::member_of(pair, "above")), numbers_of(core::member_of(pair, "below"))));
+  return found;
+}
+
+/// Adds the window of the means, the means of the run, and those of the other run with the distances from it. A window
+/// is of the time that both have, unless only its begin is given: then each run is measured to its own end.
+void add_means(core::Json& json, const MeasureOptions& options, const StoredRun& run, const StoredRun* beside) {
+  std::vector<const StoredRun*> runs{&run};
+  if (beside != nullptr) runs.push_back(beside);
+  measures::Window window{options.begin.value_or(0), options.end.value_or(std::numeric_limits<double>::infinity())};
+  try {
+    if (!options.begin) window = measures::common_window(runs);
+  } catch (const core::FileError&) {
+    if (beside != nullptr) throw;
+    json["in_window"] = nullptr;
+    return;
+  }
+  double end = window.end;
+  for (const StoredRun* one : runs)
+    end = std::min(end, one->history.of("time_s").empty() ? 0 : one->history.of("time_s").back());
+  json["window"] = {{"begin_s", window.begin}, {"end_s", end}, {"shortened", window.shortened}};
+  json["in_window"] = json_of(run, measures::in_window(run, window, options.slabs));
+  if (beside == nullptr) return;
+  json["beside"] = json_of(*beside, measures::in_window(*beside, window, options.slabs));
+  json["distances"] = json_of(measures::distances(run, *beside, window, options.slabs), false);
 }
 
 // ---- telling
 
-core::Json json_of(const Values& values) {
-  core::Json json = core::Json::array();
-  for (const measures::Value& value : values) json.push_back(core::or_null(value));
-  return json;
-}
-
-void print_json(const Asked& asked, const MeasureOptions& options) {
-  const bool of_run = options.profiles.empty();
-  core::Json json;
-  if (of_run) json["time_s"] = asked.time;
-  core::Json& of_beds = json["measures"] = core::Json::object();
-  for (const Column& column : measured(asked))
-    of_beds[column.name] = {{"unit", column.unit}, {"help", column.help}, {"values", json_of(column.values)}};
-  if (asked.reference) json["distances"] = core::Json::object();
-  for (const Column& column : distances(asked)) json["distances"][column.name] = json_of(column.values);
-  if (of_run && options.beside.empty()) add_means(json, options, asked, nullptr);
-  if (!options.beside.empty()) {
-    const Asked beside = read_run(options.beside);
-    add_means(json, options, asked, &beside);
+void print_json(const StoredRun& run, const MeasureOptions& options) {
+  core::Json json{{"time_s", run.time}, {"measures", core::Json::object()}};
+  for (const MeasuredColumn& column : measured(run)) {
+    core::Json values = core::Json::array();
+    for (const measures::Value& value : column.values) values.push_back(core::or_null(value));
+    json["measures"][column.name] = {{"unit", column.unit}, {"help", column.help}, {"values", values}};
   }
+  std::optional<StoredRun> beside;
+  if (!options.beside.empty()) beside = read_run(options.beside);
+  add_means(json, options, run, beside ? &*beside : nullptr);
   core::print("{}\n", core::json_text(json));
 }
 
-std::vector<Column> all_columns(const Asked& asked, bool of_run) {
-  std::vector<Column> columns = measured(asked);
-  if (of_run)
-    columns.insert(columns.begin(), {"time", "s", {}, "time_s", Values(asked.time.begin(), asked.time.end())});
-  for (Column& column : distances(asked)) {
-    column.heading = "distance_" + column.name;
-    column.name = "distance " + column.name;
-    columns.push_back(std::move(column));
-  }
-  return columns;
-}
-
-void print_in_si(const Asked& asked, bool of_run) {
-  const std::vector<Column> columns = all_columns(asked, of_run);
-  for (const Column& column : columns) core::print("{}{}", &column == &columns.front() ? "" : ",", column.heading);
+void print_in_si(const StoredRun& run) {
+  const std::vector<MeasuredColumn> columns = in_time(run);
+  for (const MeasuredColumn& column : columns)
+    core::print("{}{}", &column == &columns.front() ? "" : ",", column.heading);
   core::print("\n");
-  for (std::size_t n = 0; n < asked.beds.size(); ++n) {
-    for (const Column& column : columns)
+  for (std::size_t n = 0; n < run.beds.size(); ++n) {
+    for (const MeasuredColumn& column : columns)
       core::print("{}{}", &column == &columns.front() ? "" : ",",
                   column.values[n] ? fmt::format("{}", *column.values[n]) : "");
     core::print("\n");
   }
 }
 
+/// Means of the numbers of a JSON file, or of standard input; an error names it.
+void print_series(const std::string& file) {
+  const bool given = file == "-";
+  const std::string text = given ? std::string{std::istreambuf_iterator<char>(std::cin), {}} : core::read_text(file);
+  try {
+    core::print("{}\n", core::json_text(means_of_series(core::parse_json(text))));
+  } catch (const core::FileError& error) {
+    throw core::FileError(fmt::format("{}: {}", given ? "standard input" : file, error.what()));
+  }
+}
+
 void run_measure(const MeasureOptions& options) {
   if (options.list) return print_measures(options);
-  if (!options.series.empty()) return core::print("{}\n", core::json_text(of_given(options.series, means_of_series)));
-  const bool of_run = options.profiles.empty();
-  const Asked asked = of_run ? read_run(options.run) : of_given(options.profiles, read_asked);
-  if (options.json) return print_json(asked, options);
-  if (options.csv) return print_in_si(asked, of_run);
-  if (options.details || !of_run || asked.time.empty()) return print_table(all_columns(asked, of_run), of_run);
-  print_summary(asked, measured(asked));
+  if (!options.series.empty()) return print_series(options.series);
+  const StoredRun run = read_run(options.run);
+  if (options.json) return print_json(run, options);
+  if (options.csv) return print_in_si(run);
+  if (options.details || run.time.empty()) return print_table(in_time(run));
+  print_summary(run, measured(run));
 }
 
 }  // namespace
@@ -273,7 +251,6 @@ void add_measure(CLI::App& app, Commands& commands) {
   CLI::App& command = *app.add_subcommand("measure", "bed height, centres, mixing, ... of the profiles of a run");
   CLI::Option_group& what = *command.add_option_group("what");
   CLI::Option* run = what.add_option("RUN", options->run, "run directory");
-  what.add_option("--profiles", options->profiles, "JSON file of profiles instead; - reads standard input");
   CLI::Option* series = what.add_option("--series", options->series, "JSON file of numbers instead, for their means");
   CLI::Option* list = what.add_flag("--list", options->list, "instead: every measure with its unit and definition");
   what.require_option(1);

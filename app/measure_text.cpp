@@ -93,7 +93,7 @@ Series series_of(const MeasuredColumn& column, const measures::StoredRun& run) {
 
 }  // namespace
 
-void print_table(const std::vector<MeasuredColumn>& measured, bool of_run) {
+void print_table(const std::vector<MeasuredColumn>& measured) {
   constexpr std::size_t width = 100;
   std::vector<ShownColumn> columns;
   for (const MeasuredColumn& column : measured) columns.push_back(for_people(column));
@@ -104,8 +104,8 @@ void print_table(const std::vector<MeasuredColumn>& measured, bool of_run) {
     if (block.size() > 1 && used + 2 + columns[n].width > width) {
       print_block(block);
       core::print("\n");
-      block.resize(of_run ? 1 : 0);
-      used = of_run ? columns.front().width : 0;
+      block.resize(1);
+      used = columns.front().width;
     }
     block.push_back(&columns[n]);
     used += 2 + columns[n].width;

@@ -15,8 +15,8 @@ struct MeasuredColumn {
   std::vector<measures::Value> values;
 };
 
-/// All values, in blocks of as many columns as fit. \param of_run  the first column is the time, which each block repeats
-void print_table(const std::vector<MeasuredColumn>& columns, bool of_run);
+/// All values, in blocks of as many columns as fit. Each block repeats the first column, the time.
+void print_table(const std::vector<MeasuredColumn>& columns);
 
 /// Of each measure of a run its mean over the last quarter with the interval, and its value at the end: those of its
 /// result card, by the rows of the history where these have the measure, else by the stored profiles.

@@ -33,11 +33,10 @@ struct RunOptions : CaseOptions {
   bool stress_uncertainty = false;   ///< of the TFM: again with its stress table at plus and minus one standard error
 };
 
-/// Options of what is read off runs, profiles or series: one of the first four is given.
+/// Options of what is read off runs or series: one of the first three is given.
 struct MeasureOptions {
   std::filesystem::path run;  ///< a run directory
-  std::string profiles;       ///< a JSON file of profiles; "-": standard input
-  std::string series;         ///< a JSON file of numbers; likewise
+  std::string series;         ///< a JSON file of numbers; "-": standard input
   bool list = false;          ///< the measures themselves
   // Of the means of a run.
   std::filesystem::path beside;      ///< another run, over the same window; empty: none

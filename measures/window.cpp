@@ -185,11 +185,12 @@ InWindow in_window(const StoredRun& run, const Window& window, std::size_t slabs
   return found;
 }
 
-Means distances(const StoredRun& run, const StoredRun& reference, const Window& window) {
+Means distances(const StoredRun& run, const StoredRun& reference, const Window& window, std::size_t slabs) {
   if (run.species != reference.species) throw core::FileError("the runs are of other species");
   const Rows rows = window.rows(run.time), of_reference = window.rows(reference.time);
   if (rows.count() == 0 || of_reference.count() == 0) return {};
-  const MeanProfile one = mean_profile(run, rows), other = mean_profile(reference, of_reference);
+  const MeanProfile one = mean_profile(laid_on(slabs, run), rows),
+                    other = mean_profile(laid_on(slabs, reference), of_reference);
   if (one.all.slabs() != other.all.slabs() || std::abs(one.all.slab - other.all.slab) > 1e-9 * other.all.slab)
     throw core::FileError("the runs' profiles.h5 have other slabs");
   Means found;

@@ -58,7 +58,8 @@ struct InWindow {
 
 /// Distances of the mean profile of a run from that of another one, by the rows of distance_table(); intervals leave
 /// out groups of either's profiles. Empty without a profile of both. Throws core::FileError if the runs are of other
-/// species or have other slabs.
-[[nodiscard]] Means distances(const StoredRun& run, const StoredRun& reference, const Window& window);
+/// species, or of other slabs and are not laid on the same number. \param slabs  as of in_window()
+[[nodiscard]] Means distances(const StoredRun& run, const StoredRun& reference, const Window& window,
+                              std::size_t slabs = 0);
 
 }  // namespace polybed::measures

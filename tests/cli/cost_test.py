@@ -121,6 +121,8 @@ class Cost(Scratch):
             if run["kind"] == "candidate" and run["status"] in ("pareto", "dominated", "hollow"):
                 if run["qoi"]["bed_height"]["error"] + run["qoi"]["bed_height"]["error_ci"] <= sweep["target"]:
                     self.assertGreaterEqual(run["s_per_sim_s"], chosen["s_per_sim_s"])
+        apart = [run["qoi"][name]["error"] for run in front for name in ("composition", "profile")]
+        self.assertTrue(all(0 <= one < 0.5 for one in apart) and max(apart) > 0, apart)
         text = (self.sweep_folder / "cost.md").read_text()
         self.assertIn("For an error of at most 1 % in bed_height use", text)
         self.assertIn("To measure them: --axes grid,drag,effects,level.", text)

@@ -1,29 +1,11 @@
-"""polybed measure as studies use it: of a run of either model, and of profiles. Usage: measure_test.py PROGRAM"""
-import json
+"""polybed measure as studies use it: of a run of either model, and of series. Usage: measure_test.py PROGRAM"""
 import re
-import sys
-import time
 
 import h5py
 import numpy as np
 
 import program
 from program import DONE, FILE, WRONG_CASE, Scratch, history, small_bed, strict_json
-
-# Two slabs of each of two species, the second on top; beyond them empty slabs.
-LAYERS = {"slab": 0.01, "fraction": [[0.5, 0.5, 0, 0, 0], [0, 0, 0.4, 0.4, 0]], "pressure": [45, 35, 25, 15, 5]}
-TURNED = {"slab": 0.01, "fraction": [[0, 0, 0.5, 0.5, 0], [0.4, 0.4, 0, 0, 0]]}
-
-
-def measured(text, *options):
-    """What the program says of profiles on standard input."""
-    done = program.run("measure", "--profiles", "-", "--json", *options, input=text)
-    assert done.returncode == DONE, done.stderr
-    return strict_json(done.stdout)
-
-
-def asked(**members):
-    return json.dumps({"species": ["a", "b"], "profiles": [LAYERS]} | members)
 
 
 class OfRun(Scratch):
@@ -92,7 +74,6 @@ class OfRun(Scratch):
     def test_options_of_means_are_for_the_json_of_a_run(self):
         for words in (["--begin", 1], ["--json", "--end", 1], ["--json", "--slabs", 0]):
             self.ends(WRONG_CASE, "measure", self.folder, *words)
-        self.ends(WRONG_CASE, "measure", "--profiles", "-", "--json", "--begin", 1)
         self.ends(WRONG_CASE, "measure", "--series", "-")
 
     def test_the_python_package_has_the_table_as_it_is(self):
@@ -101,68 +82,17 @@ class OfRun(Scratch):
         self.assertEqual(table, strict_json(self.ends(DONE, "measure", "--list", "--json").stdout))
 
     def test_what_is_no_run_is_named(self):
-        for words in (["measure", self.folder], ["measure", "--profiles", self.folder / "none.json"]):
+        for words in (["measure", self.folder], ["measure", "--series", self.folder / "none.json", "--json"]):
             self.assertIn(str(self.folder), self.ends(FILE, *words).stderr)
         self.assertIn("no such run directory", self.ends(FILE, "measure", self.folder / "none").stderr)
         self.ends(WRONG_CASE, "measure")
-        self.ends(WRONG_CASE, "measure", self.folder, "--profiles", "-")
+        self.ends(WRONG_CASE, "measure", self.folder, "--series", "-", "--json")
         self.ends(WRONG_CASE, "measure", self.folder, "--markdown")
-
-
-class OfProfiles(Scratch):
-    def test_hand_values(self):
-        measures = measured(asked())["measures"]
-        values = {name: measure["values"][0] for name, measure in measures.items()}
-        self.assertAlmostEqual(values["centre_a"], 0.01, delta=1e-15)
-        self.assertAlmostEqual(values["centre_b"], 0.03, delta=1e-15)
-        self.assertAlmostEqual(values["bed_height"], 0.04, delta=1e-15)
-        self.assertAlmostEqual(values["centre_difference"], 0.5, delta=1e-14)
-        self.assertAlmostEqual(values["pressure_drop"], 50, delta=1e-12)
-        self.assertLess(values["mixing"], 0.1)
-        self.assertEqual([len(m["values"]) for m in measures.values()], [1] * len(measures))
-
-    def test_distances_from_a_reference(self):
-        alike = measured(asked(reference=LAYERS))["distances"]
-        self.assertEqual(alike, {"composition": [0], "profile": [0], "profile_a": [0], "profile_b": [0]})
-        apart = measured(asked(profiles=[LAYERS, TURNED], reference=LAYERS))["distances"]
-        self.assertAlmostEqual(apart["profile"][1], 2, delta=1e-14)  # nowhere together
-        self.assertGreater(apart["composition"][1], 0.85)  # 8/9 by the exact shares, of 50 slices
-        self.assertLess(apart["composition"][1], 0.9)
-
-    def test_what_cannot_be_measured_is_null(self):
-        empty = {"slab": 0.01, "fraction": [[0, 0]]}
-        answer = json.loads(json.dumps(measured(json.dumps({"species": ["a"], "profiles": [empty], "reference": empty}))))
-        self.assertEqual({v for m in answer["measures"].values() for v in m["values"]}, {None})
-        self.assertEqual(answer["distances"], {"composition": [None], "profile": [None], "profile_a": [None]})
-
-    def test_bad_input_is_named(self):
-        wrong = [("no JSON", "{"), ("species", asked(species=[])), ("species", asked(species=["a", "a"])),
-                 ("profiles[0]: fraction: 1 rows for 2 species", asked(profiles=[LAYERS | {"fraction": [[1]]}])),
-                 ("profiles[0]: fraction", asked(profiles=[LAYERS | {"fraction": [[1], [1, 2]]}])),
-                 ("profiles[0]: fraction", asked(profiles=[LAYERS | {"fraction": [[], []]}])),
-                 ("profiles[0]: slab", asked(profiles=[LAYERS | {"slab": 0}])),
-                 ("profiles[0]: pressure", asked(profiles=[LAYERS | {"pressure": [1]}])),
-                 ("profiles[0]: 5 slabs", asked(reference={"slab": 0.1, "fraction": [[1], [1]]})),
-                 ("no member profiles", '{"species": ["a"]}'), ("profiles", asked(profiles=3))]
-        for what, text in wrong:
-            self.write("profiles.json", text)
-            said = self.ends(FILE, "measure", "--profiles", self.folder / "profiles.json", "--json").stderr
-            self.assertIn(what, said)
-            self.assertIn("profiles.json", said)
 
     def test_series_are_refused_by_name(self):
         for text in ('{"series": [1]}', '{"series": [["a"]]}', '{"ratios": [{"above": [1, 2], "below": [1]}]}'):
             self.write("series.json", text)
             self.assertIn("series.json", self.ends(FILE, "measure", "--series", self.folder / "series.json", "--json").stderr)
-
-    def test_a_hundred_profiles_of_400_slabs_take_no_time(self):
-        random = np.random.default_rng(1)
-        many = [{"slab": 0.001, "fraction": random.random((2, 400)).tolist(), "pressure": random.random(400).tolist()}
-                for _ in range(100)]
-        text, begin = asked(profiles=many, reference=many[0]), time.monotonic()
-        answer = measured(text)
-        self.assertLess(time.monotonic() - begin, 5)  # 0.2 s on one core
-        self.assertEqual(len(answer["distances"]["profile"]), 100)
 
 
 if __name__ == "__main__":

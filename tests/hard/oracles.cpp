@@ -1,6 +1,6 @@
 // polybed-hard --oracles: what `polybed cost selftest` examines of the program itself. How often the interval of a mean
 // has the truth; a particle that settles, by both integrators, which must buy error with work at the rate of their
-// order; and particles counted into slabs.
+// order; and a bed of two layers, as cells and as particles counted into slabs.
 #include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -13,6 +13,8 @@
 #include "core/output/particles.hpp"
 #include "core/print.hpp"
 #include "hard/options.hpp"
+#include "measures/bed.hpp"
+#include "measures/bed_table.hpp"
 #include "measures/time_mean.hpp"
 #include "scenes/snapshot_profile.hpp"
 
@@ -92,9 +94,21 @@ core::Json settling() {
   return {{"explicit", by_explicit}, {"implicit", by_implicit}};
 }
 
-/// Spheres on a vertical line in two layers, 0.6 below 60 mm and 0.3 above, counted into slabs by their exact parts.
-measures::Profile counted_layers() {
-  constexpr double slab = 2e-3, radius = 2e-4, side = 0.02, height = 0.2;
+// Two layers of pure species, 0.6 below 60 mm and 0.3 above, in m.
+constexpr double slab = 2e-3, height = 0.2, middle = 0.06, top = 0.16;
+
+measures::Profile layers_in_cells() {
+  measures::Profile cells{slab, std::vector(2, std::vector<double>(std::size_t(std::lround(height / slab)))), {}};
+  for (std::size_t k = 0; k < cells.slabs(); ++k) {
+    if (cells.centre(k) < middle) cells.fraction[0][k] = 0.6;
+    if (cells.centre(k) > middle && cells.centre(k) < top) cells.fraction[1][k] = 0.3;
+  }
+  return cells;
+}
+
+/// Spheres on a vertical line, counted into slabs by their exact parts.
+measures::Profile layers_counted() {
+  constexpr double radius = 2e-4, side = 0.02;
   std::vector<std::int64_t> ids;
   std::vector<double> radii;
   std::vector<std::int32_t> species;
@@ -110,8 +124,8 @@ measures::Profile counted_layers() {
       velocities.push_back({0, 0, 0});
     }
   };
-  fill(0, 0.06, 0.6, 0);
-  fill(0.06, 0.16, 0.3, 1);
+  fill(0, middle, 0.6, 0);
+  fill(middle, top, 0.3, 1);
   const core::ParticleSnapshot particles{ids, species, radii, places, velocities, velocities};
   return measures::particle_profile(particles, 2, {side * side, height, std::size_t(std::lround(height / slab))})
       .solids;
@@ -120,10 +134,15 @@ measures::Profile counted_layers() {
 }  // namespace
 
 core::ExitCode run_oracles() {
-  const measures::Profile layers = counted_layers();
-  core::print("{}\n", core::json_text({{"coverage", coverage()},
-                                       {"settling", settling()},
-                                       {"counted", {{"slab", layers.slab}, {"fraction", layers.fraction}}}}));
+  const measures::Profile cells = layers_in_cells(), counted = layers_counted();
+  core::Json measured = core::Json::object();
+  for (const auto& one : singles(read_by(&measures::Readers::profile, measures::bed_table()), {"a", "b"}))
+    measured[one.name] = {core::or_null(one.of({cells})), core::or_null(one.of({counted}))};
+  core::print("{}\n",
+              core::json_text({{"coverage", coverage()},
+                               {"settling", settling()},
+                               {"measures", measured},
+                               {"composition", core::or_null(measures::composition_distance(counted, cells))}}));
   return core::ExitCode::done;
 }
 

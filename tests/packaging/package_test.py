@@ -72,7 +72,7 @@ class Package(unittest.TestCase):
             self.assertIn(told, " ".join(page.split()))
         completion = self.usr / "share/bash-completion/completions/polybed"
         for words, expected in (("inversion x --scan ''", ["tfm", "dem", "both"]), ("cost x --model ''", ["tfm", "dem"]),
-                                ("compare --inv", ["--inversion"]), ("measure --pro", ["--profiles"])):
+                                ("compare --inv", ["--inversion"]), ("measure --ser", ["--series"])):
             script = f". {completion}; COMP_WORDS=(polybed {words}); COMP_CWORD=$((${{#COMP_WORDS[@]}} - 1)); _polybed; echo ${{COMPREPLY[@]}}"
             self.assertEqual(done("bash", "-c", script).split(), expected)
         documents = self.usr / "share/doc/polybed"

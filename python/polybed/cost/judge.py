@@ -7,7 +7,7 @@ from polybed.cost.fit import Priced, pareto_front
 from polybed.cost.quantities import LENGTH, SHARE
 from polybed.cost.sweep import CANDIDATE, REFERENCE, Recommendation, RowQuantity
 from polybed.cost.words import in_words, part
-from polybed.study.measured import measures_of
+from polybed.study.measured import means_of
 
 FLOOR_FACTOR = 10  # of the disagreement of two references
 
@@ -42,16 +42,12 @@ def measure_errors(sweep, row):
 
 
 def measure_distances(sweep):
-    """Gives the rows their distances of profiles from the reference."""
-    rows = [row for row in sweep.rows if row.done and row.measured.profile]
-    if not rows or not sweep.reference.profile:
-        return
-    species = range(len(sweep.reference.profile.fraction))
-    found = measures_of([row.measured.profile for row in rows], map(str, species), reference=sweep.reference.profile)
-    for name in ("composition", "profile"):
-        for row, value in zip(rows, found["distances"][name]):
-            if value is not None:
-                row.quantities[name] = RowQuantity(value, value)
+    """Gives the rows the distances of their mean profiles from that of the reference."""
+    for row in sweep.rows:
+        if row.done and row.measured.directory and sweep.reference.directory:
+            on = sweep.on
+            found = means_of(row.measured.directory, beside=sweep.reference.directory, begin=on.window.begin, slabs=on.slabs).distances
+            row.quantities |= {name: RowQuantity(found[name].mean, found[name].mean) for name in ("composition", "profile") if name in found}
 
 
 def distance_of(sweep, row, other):

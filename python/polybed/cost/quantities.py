@@ -1,12 +1,13 @@
 """Quantities of interest of a finished run: time means over a window with their intervals, on slabs of one thickness."""
 
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
 
 from polybed.quantities import TABLE
-from polybed.study.measured import Profile, TimeMean, Window, centre_column, means_of, species_of, within
+from polybed.study.measured import TimeMean, Window, centre_column, means_of, species_of, within
 
 HELP = {row["name"]: row["help"] for part in ("bed", "distances") for row in TABLE[part]}
 ENOUGH = 30  # autocorrelation times in a window
@@ -29,7 +30,7 @@ class MeasureOn(NamedTuple):
 @dataclass
 class RunQuantities:
     values: dict = field(default_factory=dict)  # those that the run has, TimeMean
-    profile: Profile | None = None  # mean over the window
+    directory: Path | None = None  # of the run, if it has stored profiles in the window
     too_short: str = ""  # a quantity with fewer than 30 autocorrelation times
 
 
@@ -90,7 +91,7 @@ def quantities_of_run(run, on):
             found.too_short = name
         found.values[name] = mean
     found.values |= fluctuations(run, found.values.get("pressure_drop"), on.window)
-    found.profile = measured.profile
+    found.directory = run.directory if measured.profiles else None
     if len(species) > 1 and "interface_m" in measured.of_profile:
         found.values["interface"] = measured.of_profile["interface_m"]
     return found

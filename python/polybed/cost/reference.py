@@ -31,7 +31,7 @@ def means_of(row):
 def given_reference(sweep, folder):
     """A run that is given."""
     found = quantities_of_run(measured(folder), sweep.on)
-    sweep.reference = Reference("directory", folder, {name: mean.mean for name, mean in found.values.items()}, profile=found.profile)
+    sweep.reference = Reference("directory", folder, {name: mean.mean for name, mean in found.values.items()}, directory=found.directory)
     set_bands(sweep, found.values)
 
 
@@ -64,7 +64,7 @@ def statistical_reference(sweeper):
         found = found if found.done else sweeper.row_on_line("grid", level) or found
     if not found.done:
         return
-    sweep.reference = Reference("statistical", settings_text(sweep, found), means_of(found), profile=found.measured.profile)
+    sweep.reference = Reference("statistical", settings_text(sweep, found), means_of(found), directory=found.measured.directory)
     set_bands(sweep, found.measured.values)
     if found.kind == CANDIDATE:
         sweep.warnings.append("the reference is one of the runs that it ranks")
@@ -89,7 +89,7 @@ def additive_reference(sweeper):
     if not two.done:
         return sweep.refuse(f"no second integrator to check the reference by: {two.outcome.reason}")
     note = "tolerances two levels tighter than the tightest, checked by another kind of integrator"
-    sweep.reference = reference = Reference("self", note, means_of(one), profile=one.measured.profile)
+    sweep.reference = reference = Reference("self", note, means_of(one), directory=one.measured.directory)
     for name, mean in two.measured.values.items():
         if name in reference.value:
             reference.floor[name] = FLOOR_FACTOR * abs(mean.mean - reference.value[name]) / scale_of(sweep, name)
@@ -137,7 +137,7 @@ def add_space(sweeper, grid):
         if name == sweep.ranking:
             tell_of_refinement(sweep, refined, len(line))
     reference.band = {name: band / scale_of(sweep, name) for name, band in reference.band.items()}
-    reference.profile = line[-1].measured.profile
+    reference.directory = line[-1].measured.directory
     band = reference.band.setdefault(sweep.ranking, 0.0)
     if band > 5 * sweep.options.target:
         sweep.refuse(f"not converging: the grids leave {sweep.ranking} uncertain by {100 * band:.2g} %")

@@ -1,12 +1,12 @@
 """What was run, what it is measured against, and what follows."""
 
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import NamedTuple
 
 from polybed.cost.fit import Priced
 from polybed.cost.quantities import MeasureOn, RunQuantities
 from polybed.cost.runner import RunOrder, RunOutcome
-from polybed.study.measured import Profile
 
 # What a row stands for.
 CANDIDATE, MODEL, MACHINE, REFERENCE, TWIN, SOLVER, INPUT = "candidate", "model", "machine", "reference", "twin", "solver", "input"
@@ -60,7 +60,7 @@ class Reference:
     value: dict = field(default_factory=dict)
     floor: dict = field(default_factory=dict)  # of errors: below it nothing is ranked
     band: dict = field(default_factory=dict)
-    profile: Profile | None = None
+    directory: Path | None = None  # of a run with profiles
 
 
 @dataclass

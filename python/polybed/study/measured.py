@@ -1,5 +1,5 @@
 """What runs have measured: columns of their histories, and what `polybed measure` says: means over a window of time with the half-widths
-of their 95 % intervals, and measures of profiles."""
+of their 95 % intervals."""
 
 import json
 from dataclasses import dataclass, field
@@ -48,17 +48,6 @@ class Window(NamedTuple):
     shortened: bool = False  # by the marginal standard error rule
 
 
-@dataclass
-class Profile:
-    """Lateral averages on slabs of one thickness from the bottom up."""
-    slab: float  # m
-    fraction: np.ndarray  # [species][slab]
-
-    def plain(self):
-        """As `polybed measure` reads it."""
-        return {"slab": self.slab, "fraction": np.asarray(self.fraction).tolist()}
-
-
 def history_of(run):
     """The columns of the history of a run that has been opened."""
     return Columns(run.directory / "history.csv", run.history)
@@ -103,11 +92,6 @@ class InWindow:
         self.means, self.of_profile = time_means(found["means"]), time_means(profile["measures"])
         self.height, self.fraction = profile["y_m"], profile["fraction"]
 
-    @property
-    def profile(self):
-        """The mean profile; None without a stored one in the window."""
-        return Profile(2 * self.height[0], np.array([of["mean"] for of in self.fraction.values()])) if self.profiles else None
-
 
 class Means(NamedTuple):
     """What `polybed measure` says of one run or two. distances: of their mean profiles"""
@@ -139,12 +123,3 @@ def statistics_of(series=(), ratios=()):
     asked = {"series": [plain(values) for values in series],
              "ratios": [{"above": plain(above), "below": plain(below)} for above, below in ratios]}
     return json.loads(call("measure", "--series", "-", "--json", given=json.dumps(asked)))
-
-
-def measures_of(profiles, species, reference=None):
-    """What `polybed measure --profiles` says of profiles, as a dictionary: "measures" by name, each with its "values", and "distances" from
-    the reference."""
-    asked = {"species": list(species), "profiles": [profile.plain() for profile in profiles]}
-    if reference:
-        asked["reference"] = reference.plain()
-    return json.loads(call("measure", "--profiles", "-", "--json", given=json.dumps(asked)))

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "core/error.hpp"
+
 namespace polybed::measures {
 namespace {
 
@@ -26,6 +28,17 @@ TEST(Window, MeansAreOfColumnsAndOfWhatFollowsFromThem) {
   EXPECT_FALSE(found.means.contains("time_s"));
   run.history.values[5][2] = 0;
   EXPECT_FALSE(in_window(run, {0.25, 1}).means.contains("pressure_drop_over_weight"));
+}
+
+// One bed on four slabs of 0.1 m and on two of 0.2 m, and one with half of the solids: 0.25 of 0.5 are apart.
+TEST(Window, DistancesAreOnTheSlabsAskedFor) {
+  const auto run = [](double slab, std::vector<double> phi) {
+    return StoredRun{{"a"}, {}, {1}, {{.profile = {slab, {std::move(phi)}, {}}}}};
+  };
+  const StoredRun fine = run(0.1, {0.5, 0.5, 0, 0}), coarse = run(0.2, {0.5, 0}), low = run(0.1, {0.5, 0, 0, 0});
+  EXPECT_THROW((void)distances(fine, coarse, {0, 1}), core::FileError);
+  EXPECT_NEAR(distances(fine, coarse, {0, 1}, 2).at("profile").mean, 0, 1e-15);
+  EXPECT_NEAR(distances(low, coarse, {0, 1}, 2).at("profile").mean, 0.5, 1e-15);
 }
 
 }  // namespace

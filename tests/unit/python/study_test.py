@@ -19,7 +19,7 @@ from polybed import ending  # noqa: E402
 from polybed.record import drift_lines  # noqa: E402
 from polybed.runner import run_within  # noqa: E402
 from polybed.study import output_folder  # noqa: E402
-from polybed.study.measured import Columns, Profile, Window, means_of, measures_of, species_of, statistics_of, within  # noqa: E402
+from polybed.study.measured import Columns, Window, means_of, species_of, statistics_of, within  # noqa: E402
 from stored_run import Written  # noqa: E402
 
 
@@ -40,7 +40,7 @@ class Means(unittest.TestCase):
         self.assertEqual(distances, {})
         window, [found], _ = means_of(run.directory, begin=50)
         self.assertEqual(window, (50, 100, False))
-        self.assertEqual((found.rows, found.step, found.profiles, found.profile), (201, 0.25, 0, None))
+        self.assertEqual((found.rows, found.step, found.profiles), (201, 0.25, 0))
         self.assertAlmostEqual(found.means["bed_height_m"].mean, 0.075, delta=1e-15)
 
     def test_of_too_little(self):
@@ -69,12 +69,6 @@ class Means(unittest.TestCase):
         self.assertEqual(len(within(np.empty(0), np.empty(0), Window(75, 100))), 0)
         with self.assertRaisesRegex(ending.FAULTS, "history.csv .* mixing"):
             history["mixing"]
-
-    def test_measures_are_those_of_the_program(self):
-        profile = Profile(1e-3, np.array([[0.5] * 20 + [0.0] * 20]))
-        found = measures_of([profile, profile], ["a"], reference=profile)
-        np.testing.assert_allclose(found["measures"]["centre_a"]["values"], [0.01, 0.01])
-        self.assertEqual(found["distances"]["profile"], [0, 0])
 
 
 class Drifts(unittest.TestCase):
