@@ -1,9 +1,171 @@
-// The program: the only place that exits.
-#include <optional>
+// The program: its command line, MPI around what needs it, and the only place that exits.
+#include <fmt/format.h>
+#include <mpi.h>
 
-#include "app/command_line.hpp"
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <cstring>
+#include <optional>
+#include <sstream>
+#include <stdexcept>
+#include <string_view>
+#include <thread>
+
+#include "app/commands.hpp"
 #include "app/process.hpp"
+#include "core/case/keys.hpp"
+#include "core/error.hpp"
+#include "core/numerics/mpi_start.hpp"
+#include "core/numerics/ranks.hpp"
 #include "core/print.hpp"
+#include "core/vectors.hpp"
+#include "core/version.hpp"
+#include "multiscale/program.hpp"
+
+namespace polybed::app {
+
+namespace {
+
+/// How ranks end together.
+class MpiSession {
+ public:
+  MpiSession() {
+    core::open_mpi();
+    MPI_Comm_size(MPI_COMM_WORLD, &ranks_);
+    MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
+  }
+  ~MpiSession() { core::close_mpi(); }
+  MpiSession(const MpiSession&) = delete;
+  MpiSession& operator=(const MpiSession&) = delete;
+
+  [[nodiscard]] bool first() const { return rank_ == 0; }
+
+  /// An error that all ranks have met is told once. One that the others do not know of would leave them waiting for
+  /// ever: after some seconds it is told by the rank that met it, which ends them all.
+  void agree_on(Ending& ending) const {
+    if (ranks_ == 1 || ending.code == 0) return;
+    MPI_Request all_here = MPI_REQUEST_NULL;
+    MPI_Ibarrier(MPI_COMM_WORLD, &all_here);
+    for (int tenths = 0, done = 0; tenths < 50; ++tenths) {
+      MPI_Test(&all_here, &done, MPI_STATUS_IGNORE);
+      if (done != 0) {
+        if (!first()) ending.message.clear();
+        return;
+      }
+      std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    }
+    core::print(stderr, "rank {}: {}\n", rank_, ending.message);
+    MPI_Abort(MPI_COMM_WORLD, ending.code);
+  }
+
+ private:
+  int ranks_ = 1, rank_ = 0;
+};
+
+Commands add_commands(CLI::App& app) {
+  Commands commands;
+  for (const auto add : {add_new,  add_tfm,    add_dem,   add_compare,   add_check,     add_effects, add_estimate,
+                         add_cost, add_drag,   add_fit,   add_inversion, add_calibrate, add_resolve, add_measure,
+                         add_plot, add_report, add_watch, add_stability, add_validate,  add_keys})
+    add(app, commands);
+  return commands;
+}
+
+/// The command line without what stands before the command.
+std::vector<std::string> words_from_command(const CLI::App& app, int argc, char** argv) {
+  const std::string command = app.get_subcommands().front()->get_name();
+  return {std::find(argv, argv + argc, command), argv + argc};
+}
+
+/// What is wrong with the place of the command: an unknown one is named with the nearest one, and -n stands before it.
+/// Empty: the command is known, or there is none.
+std::string misplaced_command(const CLI::App& app, int argc, char** argv) {
+  const std::string_view ranks = "-n";
+  int at = 1;
+  while (at < argc && argv[at][0] == '-') at += argv[at] == ranks ? 2 : 1;
+  if (at >= argc) return "";
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands(nullptr)) names.push_back(command->get_name());
+  const std::string word = argv[at];
+  if (std::find(names.begin(), names.end(), word) != names.end()) {
+    const auto behind =
+        std::find_if(argv + at, argv + argc, [&](std::string_view given) { return given.starts_with(ranks); });
+    if (behind == argv + argc) return "";
+    const std::string joined = std::string(*behind).substr(ranks.size()),
+                      next = behind + 1 < argv + argc ? behind[1] : "2";
+    return fmt::format("-n stands before the command: polybed -n {} {} ...", joined.empty() ? next : joined, word);
+  }
+  const std::string near = core::nearest_name(word, names);
+  return fmt::format("unknown command '{}'{}", word,
+                     near.empty() ? "; polybed --help lists them" : "; did you mean '" + near + "'?");
+}
+
+/// What was printed has to have arrived: a full disk shows only when the buffer is emptied.
+void flush_standard_output() {
+  if (const int reason = core::refusal_of_answer(); reason != 0)
+    throw core::FileError(fmt::format("standard output: cannot be written ({})", std::strerror(reason)));
+}
+
+/// A wrong POLYBED_VECTORS ends the program here, not in the first loop.
+void check_vector_width() {
+  try {
+    (void)core::vector_width();
+  } catch (const std::invalid_argument& error) {
+    throw core::CaseError(error.what());
+  }
+}
+
+/// Does what the command line asks for and returns the code to end with; throws what the command throws. A line that
+/// cannot be read is told on standard error and is core::ExitCode::wrong_case.
+/// \param mpi  started if the command needs it
+core::ExitCode run(int argc, char** argv, std::optional<MpiSession>& mpi) {
+  check_vector_width();
+  CLI::App app{"polybed: beds of particles of several sizes and densities in a liquid or a gas"};
+  const std::string kind = core::build_kind().empty() ? "" : ", built with " + core::build_kind();
+  app.set_version_flag("--version", "polybed " + core::version() + " (" + core::git_commit() + ")" + kind);
+  app.require_subcommand(1);
+  int ranks = 1;
+  app.add_option("-n", ranks, "before the command: the number of ranks that share it, by mpirun")
+      ->check(CLI::Range(1, 1000000));
+  const Commands commands = add_commands(app);
+  if (argc == 1) {  // who types the name alone wants to see what there is
+    core::print(stderr, "{}\npolybed list cases: cases to start from; polybed COMMAND --help: its options\n",
+                app.help());
+    return core::ExitCode::wrong_case;
+  }
+  if (const std::string wrong = misplaced_command(app, argc, argv); !wrong.empty()) throw core::CaseError(wrong);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    const bool asked = error.get_exit_code() == 0;
+    std::ostringstream answer, refusal;
+    app.exit(error, answer, refusal);
+    core::put(stdout, answer.str());
+    core::put(stderr, refusal.str());
+    if (!asked) return core::ExitCode::wrong_case;
+    flush_standard_output();
+    return core::ExitCode::done;
+  }
+  core::ExitCode code = core::ExitCode::done;
+  for (const Command& command : commands) {
+    if (!command.app->parsed()) continue;
+    const On on = command.on();
+    if (on == On::study) {
+      keep_ranks_for_runs(ranks);
+      if (core::first_by_launcher()) code = command.run();
+      continue;
+    }
+    if (ranks > 1) return run_ranks(ranks, words_from_command(app, argc, argv));
+    if (on != On::one_process) mpi.emplace();
+    if (on != On::first_rank || mpi->first()) code = command.run();
+  }
+  core::on_first(mpi ? core::Ranks::of_program().get() : nullptr, flush_standard_output);
+  return code;
+}
+
+}  // namespace
+}  // namespace polybed::app
 
 using namespace polybed;
 
