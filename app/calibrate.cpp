@@ -1,5 +1,5 @@
-// polybed calibrate: hands over to the Python package, which asks this program which boxes a case has, what they
-// measure, and how a table reads.
+// polybed calibrate: hands over to the Python package, which starts this program again, on the ranks if there are any,
+// and asks it which boxes a case has, what they measure, and how a table reads.
 #include <fmt/format.h>
 #include <sys/prctl.h>
 #include <unistd.h>
@@ -9,6 +9,7 @@
 #include <csignal>
 #include <cstdio>
 #include <functional>
+#include <iostream>
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -199,18 +200,6 @@ class Service {
   std::optional<core::OutputDirectory> taken_;  ///< by the first rank
 };
 
-struct Close {
-  void operator()(std::FILE* file) const { std::fclose(file); }
-};
-using Stream = std::unique_ptr<std::FILE, Close>;
-
-/// The next line; empty at the end.
-std::string next_line(std::FILE* stream) {
-  std::string line;
-  for (int c = std::fgetc(stream); c != EOF && c != '\n'; c = std::fgetc(stream)) line.push_back(char(c));
-  return line;
-}
-
 Texts words_of(const std::string& line) {
   Texts words;
   const core::Json question = core::parse_json(line);
@@ -229,21 +218,19 @@ Texts words_of(const std::string& line) {
 ///   ratios PATH POINT...      of each [p, p one standard error up, mu, mu likewise] that a run reads from a table
 /// A point is "regime phi stokes restitution friction share binary pushed seed". Collective; the first rank reads and
 /// writes. Throws what the question meets.
-/// \param questions, answers  descriptors  \param ranks  null: one process
-void answer_calibration(int questions, int answers, std::shared_ptr<const core::Ranks> ranks) {
-  const bool first = core::is_first(ranks.get());
-  const Stream in(first ? ::fdopen(::dup(questions), "r") : nullptr);
-  const Stream out(first ? ::fdopen(::dup(answers), "w") : nullptr);
-  const auto show = [&out](const std::string& text) {
-    core::put(out.get(), text + "\n");
-    std::fflush(out.get());
+void answer_calibration() {
+  const std::shared_ptr<const core::Ranks> ranks = core::started_by_launcher() ? core::Ranks::of_program() : nullptr;
+  const auto show = [](const std::string& text) {
+    core::put(stdout, text + "\n");
+    std::fflush(stdout);
   };
   Service service(ranks, [&show] { show("null"); });
-  for (;;) {
-    const std::string line = core::said_by(ranks.get(), 0, first ? next_line(in.get()) : "");
+  for (std::string line;;) {
+    if (core::is_first(ranks.get()) && !std::getline(std::cin, line)) line.clear();
+    line = core::said_by(ranks.get(), 0, line);
     if (line.empty()) return;
     const std::string answer = service.answer(words_of(line));
-    if (first) show(answer);
+    if (core::is_first(ranks.get())) show(answer);
   }
 }
 
@@ -253,41 +240,26 @@ void run_box_into(const std::string& file, const std::string& case_path, const s
   write_box(file, run_box(read_chosen_case(case_path, overrides, {}), point_of(point)));
 }
 
-constexpr const char* study = "polybed.calibration";
-
 /// Words for the command's own use: `--serve`, and `--box PARENT FILE CASE POINT SETTING...`.
 bool serves(const std::vector<std::string>& words) { return !words.empty() && words[0] == "--serve"; }
 bool is_box(const std::vector<std::string>& words) { return words.size() > 4 && words[0] == "--box"; }
 
-/// Under mpirun the first rank starts Python, and all ranks run the boxes that it asks for.
-core::ExitCode calibrate_on_ranks(std::vector<std::string> words) {
-  const std::shared_ptr<const core::Ranks> ranks = core::Ranks::of_program();
-  words.insert(words.begin(), "--on-ranks");
-  std::optional<AskingModule> python;
-  core::on_first(ranks.get(), [&] { python.emplace(study, words); });
-  const int socket = python ? python->socket() : -1;
-  answer_calibration(socket, socket, ranks);
-  return core::ExitCode(std::stoi(core::said_by(ranks.get(), 0, python ? std::to_string(python->wait()) : "")));
-}
-
-bool calibrate_needs_mpi(const std::vector<std::string>& words) {
-  if (is_box(words)) return words[4].starts_with("bed");
-  return core::started_by_launcher() && !serves(words);
+On runs_on(const std::vector<std::string>& words) {
+  if (is_box(words)) return words[4].starts_with("bed") ? On::all_ranks : On::one_process;
+  if (serves(words)) return core::started_by_launcher() ? On::all_ranks : On::one_process;
+  return On::study;
 }
 
 core::ExitCode run_calibrate(const std::vector<std::string>& words) {
   if (serves(words)) {
-    answer_calibration(STDIN_FILENO, STDOUT_FILENO, nullptr);
+    answer_calibration();
     return core::ExitCode::done;
   }
-  if (is_box(words)) {
-    ::prctl(PR_SET_PDEATHSIG, SIGKILL);  // no box outlives the command that has asked for it
-    if (std::to_string(::getppid()) != words[1]) return core::ExitCode::stopped;
-    run_box_into(words[2], words[3], {words.begin() + 5, words.end()}, words[4]);
-    return core::ExitCode::done;
-  }
-  if (core::started_by_launcher()) return calibrate_on_ranks(words);
-  become_python(study, words);
+  if (!is_box(words)) become_python("polybed.calibration", words);
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);  // no box outlives the command that has asked for it
+  if (std::to_string(::getppid()) != words[1]) return core::ExitCode::stopped;
+  run_box_into(words[2], words[3], {words.begin() + 5, words.end()}, words[4]);
+  return core::ExitCode::done;
 }
 
 }  // namespace
@@ -295,9 +267,8 @@ core::ExitCode run_calibrate(const std::vector<std::string>& words) {
 void add_calibrate(CLI::App& app, Commands& commands) {
   CLI::App& command = add_handed_over(
       app, "calibrate", "run boxes of particles and make a table of the solids stress for the two-fluid model");
-  commands.push_back({&command, doing([&command] { return run_calibrate(command.remaining()); }), [&command] {
-                        return calibrate_needs_mpi(command.remaining()) ? On::all_ranks : On::one_process;
-                      }});
+  commands.push_back({&command, [&command] { return run_calibrate(command.remaining()); },
+                      [&command] { return runs_on(command.remaining()); }});
 }
 
 }  // namespace polybed::app

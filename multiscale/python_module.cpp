@@ -3,16 +3,13 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <spawn.h>
-#include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <array>
 #include <cerrno>
 #include <cstdlib>
-#include <initializer_list>
 #include <system_error>
-#include <utility>
 #include <vector>
 
 #include "core/error.hpp"
@@ -32,14 +29,12 @@ std::vector<std::string> words_of(const std::string& module, const std::vector<s
   return words;
 }
 
-/// A descriptor of ours, and where a child has it.
-using Place = std::pair<int, int>;
-
-/// Starts a program; 0 or why it did not start.
-int start(std::vector<std::string> words, std::initializer_list<Place> places, pid_t& child) {
+/// Starts a program, with standard output and error into a descriptor unless that is -1; 0 or why it did not start.
+int start(std::vector<std::string> words, int output, pid_t& child) {
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
-  for (const auto& [ours, its] : places) posix_spawn_file_actions_adddup2(&actions, ours, its);
+  for (const int its : {STDOUT_FILENO, STDERR_FILENO})
+    if (output >= 0) posix_spawn_file_actions_adddup2(&actions, output, its);
   const int reason = posix_spawn(&child, words.front().c_str(), &actions, nullptr, pointers_to(words).data(), environ);
   posix_spawn_file_actions_destroy(&actions);
   return reason;
@@ -54,10 +49,6 @@ std::string read_all(int input) {
     if (count <= 0) return text;
     text.append(buffer.data(), std::size_t(count));
   }
-}
-
-[[noreturn]] void not_started(const std::string& reason) {
-  throw core::FileError(fmt::format("cannot start {}: {}; {}", python, reason, python_packages));
 }
 
 /// Exit code of a child, as a shell tells it.
@@ -83,9 +74,9 @@ PythonEnd run_python(const std::string& module, const std::vector<std::string>& 
   int reason = 0;
   std::array<int, 2> pipe{-1, -1};
   if (output == PythonOutput::show) {
-    reason = start(words, {}, child);
+    reason = start(words, -1, child);
   } else if (::pipe2(pipe.data(), O_CLOEXEC) == 0) {
-    reason = start(words, {{pipe[1], STDOUT_FILENO}, {pipe[1], STDERR_FILENO}}, child);
+    reason = start(words, pipe[1], child);
     ::close(pipe[1]);
     if (reason == 0) end.output = read_all(pipe[0]);
     ::close(pipe[0]);
@@ -99,27 +90,10 @@ PythonEnd run_python(const std::string& module, const std::vector<std::string>& 
   return end;
 }
 
-AskingModule::AskingModule(const std::string& module, const std::vector<std::string>& arguments) {
-  std::array<int, 2> ends{-1, -1};
-  int reason = ::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) == 0 ? 0 : errno;
-  const core::Descriptor of_module(ends[1]);
-  socket_.emplace(ends[0]);
-  if (reason == 0) reason = start(words_of(module, arguments), {{ends[1], STDIN_FILENO}}, process_);
-  if (reason != 0) not_started(std::system_category().message(reason));
-}
-
-AskingModule::~AskingModule() {
-  if (process_ > 0) (void)wait();
-}
-
-int AskingModule::wait() {
-  socket_.reset();
-  return wait_for(std::exchange(process_, 0));
-}
-
 void become_python(const std::string& module, const std::vector<std::string>& arguments) {
   ::setenv("POLYBED", this_program().c_str(), 1);
-  not_started(become(words_of(module, arguments)));
+  throw core::FileError(
+      fmt::format("cannot start {}: {}; {}", python, become(words_of(module, arguments)), python_packages));
 }
 
 bool draw(const std::string& module, const std::filesystem::path& directory, std::string& message,

@@ -2,11 +2,8 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <vector>
-
-#include "core/output/descriptor.hpp"
 
 namespace polybed::multiscale {
 
@@ -28,26 +25,6 @@ enum class PythonOutput { keep, show };
 /// Becomes a module of the package: the study of a command that is written in Python. The module finds this program in
 /// the environment's POLYBED. Throws core::FileError if Python cannot be started.
 [[noreturn]] void become_python(const std::string& module, const std::vector<std::string>& arguments);
-
-/// A module of the package that asks this program while it runs: its standard input is a socket, into which it writes a
-/// line and from which it reads the answer. It ends, at the latest, with this object.
-class AskingModule {
- public:
-  /// Throws core::FileError if Python cannot be started.
-  AskingModule(const std::string& module, const std::vector<std::string>& arguments);
-  ~AskingModule();
-  AskingModule(const AskingModule&) = delete;
-  AskingModule& operator=(const AskingModule&) = delete;
-
-  /// This program's end: questions come from it, answers go into it.
-  [[nodiscard]] int socket() const { return socket_->number(); }
-  /// Waits for its end; its exit code.
-  [[nodiscard]] int wait();
-
- private:
-  std::optional<core::Descriptor> socket_;
-  int process_ = 0;
-};
 
 /// The line that installs what the package needs.
 constexpr const char* python_packages =

@@ -24,6 +24,7 @@ with needed(__name__ == "__main__"):
     from polybed.calibration.text import box_lines, table_toml
     from polybed.ending import DONE, FILE, WRONG_CASE, StudyError, guarded
     from polybed.in_place import in_place, put_text
+    from polybed.runner import ranks
     from polybed.solids_table import read_table
 
 
@@ -52,10 +53,10 @@ def parsed(arguments):
     parser.add_argument("--bed", metavar="TABLE", help="of fluidised boxes (regime bed): its p_bed is put beside what is sheared")
     parser.add_argument("--quiet", action="store_true", help="no progress")
     parser.add_argument("--json", action="store_true", help="one JSON object")
-    parser.add_argument("--on-ranks", action="store_true", help=argparse.SUPPRESS)
     options = parser.parse_args(arguments)
     case = Path(options.case).absolute()  # called by its folder, which may be a link
     options.output = options.output or Path("runs") / f"{case.parent.name if case.stem == 'case' else case.stem}-calibrate"
+    options.on_ranks = ranks() > 1
     options.people = ERR if options.json else OUT  # with --json standard output is the object's alone
     return options
 
@@ -195,7 +196,7 @@ def main(arguments=None):
         signal.signal(stop, signal.default_int_handler)
 
     def work():
-        with Service(options.on_ranks) as service:
+        with Service() as service:
             calibrate(options, service)
         if refusals:
             raise StudyError(FILE, f"standard output: cannot be written ({refusals[0].strerror})")

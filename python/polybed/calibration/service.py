@@ -2,25 +2,18 @@
 
 import contextlib
 import json
-import os
 import subprocess
 
-from polybed.ending import FILE, StudyError
-from polybed.runner import start
+from polybed.ending import StudyError
+from polybed.runner import ranks, start
 
 
 class Service:
-    """The program, asked line by line: a process of its own, or, on ranks, the one that has started this one and whose socket is the
-    standard input."""
+    """The program, asked line by line, on as many ranks as this process was started with."""
 
-    def __init__(self, on_ranks=False):
-        self.child = None
-        coding = {"encoding": "utf-8", "errors": "surrogateescape"}
-        if on_ranks:
-            self.questions, self.answers = os.fdopen(os.dup(0), "w", **coding), os.fdopen(os.dup(0), **coding)
-            return
-        pipes = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE}
-        self.child = start(["calibrate", "--serve"], process_group=0, **pipes, **coding)
+    def __init__(self):
+        self.child = start(["calibrate", "--serve"], ranks(), True, stdin=subprocess.PIPE, stdout=subprocess.PIPE, encoding="utf-8",
+                           errors="surrogateescape")
         self.questions, self.answers = self.child.stdin, self.child.stdout
 
     def ask(self, *words):
@@ -34,7 +27,7 @@ class Service:
         """The next line that is answered. Raises StudyError with the code of a program that has ended."""
         line = self.answers.readline()
         if not line:
-            code = self.child.wait() if self.child else FILE
+            code = self.child.wait()
             raise StudyError(code if code >= 0 else 128 - code)
         return json.loads(line)
 
@@ -42,11 +35,12 @@ class Service:
         with contextlib.suppress(BrokenPipeError):
             self.questions.close()
         self.answers.close()
-        if self.child:
-            self.child.wait()
+        self.child.wait()
 
     def __enter__(self):
         return self
 
-    def __exit__(self, *_):
+    def __exit__(self, kind, *_):
+        if kind is KeyboardInterrupt:
+            self.child.terminate()  # it may be in a box
         self.close()
