@@ -145,7 +145,7 @@ core::Json json_of(const BedState& bed) {
   return json;
 }
 
-void write_requirements(core::Json& json, const Requirements& need) {
+void write_requirements(core::Json& json, const core::Scene& scene, const Requirements& need) {
   constexpr double mega = 1e-6;
   json.update({{"integrator", core::name_of(need.integrator)},
                {"momentum", core::name_of(need.momentum)},
@@ -159,12 +159,9 @@ void write_requirements(core::Json& json, const Requirements& need) {
   json["dt_limits"] = {
       {"at_rest", json_of(need.rest)}, {"lifted", json_of(need.lifted)}, {"expanded", json_of(need.expanded)}};
   json["time"] = nullptr;
-  if (const std::optional<TimeNeed>& time = need.time)
-    json["time"] = {{"steps", time->steps},
-                    {"s_per_step", time->seconds_per_step},
-                    {"expected_s", time->expected},
-                    {"least_s", time->least},
-                    {"most_s", time->most}};
+  if (!need.time) return;
+  json["time"] = seconds_of(tfm_time(scene, need, known_machine()));
+  json["time"].update({{"steps", need.time->steps}, {"s_per_step", need.time->seconds_per_step}});
 }
 
 void print_state(const char* name, const BedState& bed) {
@@ -192,10 +189,8 @@ void print_requirements(const core::Scene& scene, const Requirements& need) {
     core::print("time: not known, the numbers failed in the sample that is measured\n");
     return;
   }
-  const TimeNeed& time = *need.time;
-  core::print("computing {:.4g} s takes about {} here, between {} and {}: {:.2g} steps of {:.2g} s\n", scene.run.until,
-              short_time(time.expected), short_time(time.least), short_time(time.most), time.steps,
-              time.seconds_per_step);
+  core::print("{:.4g} s takes {}: {:.2g} steps of {:.2g} s\n", scene.run.until,
+              computing_text(tfm_time(scene, need, known_machine())), need.time->steps, need.time->seconds_per_step);
 }
 
 /// The classes of the distributions, with y_j = D_j over the Sauter diameter of the distribution.
@@ -364,7 +359,7 @@ void run_check(const RunOptions& options) {
     json["buoyant_weight_Pa"] = derived.weight;
     json["static_height_m"] = scene.bed.static_height;
     write_expected(json, scene, bed_of_case(scene));
-    write_requirements(json, need);
+    write_requirements(json, scene, need);
     if (particles) write_particle_requirements(json["dem"], scene, *particles);
     write_size_classes(json, scene);
     json["refused"] = refusals_of(scene);

@@ -21,6 +21,7 @@
 #include "dem/scene.hpp"
 #include "dem/settling.hpp"
 #include "fluid/viscous_stress.hpp"
+#include "multiscale/card/card.hpp"
 #include "relevance/effects/contact.hpp"
 #include "relevance/fluid_properties.hpp"
 
@@ -28,7 +29,6 @@ namespace polybed::multiscale {
 
 namespace {
 
-constexpr double band = 4;
 /// Memory that the peak of a run grows by with each particle of a dense bed, with its ledger of energy
 /// (docs/record/cost.md), and what output takes at any size; bytes.
 constexpr double bytes_per_particle = 1000, bytes_of_output = 12e6;
@@ -183,14 +183,12 @@ ParticleRequirements particle_requirements_of(const core::Scene& scene, const Pa
   if (scene.bed.start.kind == core::StartKind::settled) need.settling = dem::settling_time(scene, materials, box);
   need.before = expected_time(need, speed, need.settling / need.limits.dt, start_count);
   need.expected = need.before + expected_time(need, speed, need.steps, start_count + 0.5 * more);
-  need.least = need.expected / band;
-  need.most = need.expected * band;
   return need;
 }
 
 ParticleRequirements placed_requirements_of(const core::Scene& scene) {
   constexpr std::int64_t quickly = 5000;  // a fraction of a second
-  ParticleRequirements need = particle_requirements_of(scene);
+  ParticleRequirements need = particle_requirements_of(scene, known_machine().particles);
   if (need.count() <= quickly) (void)dem::start_particles(scene, dem::Materials(scene), dem::box_of(scene));
   return need;
 }
@@ -276,10 +274,11 @@ void write_particle_requirements(core::Json& json, const core::Scene& scene, con
   json["integrator"] = need.limits.synchronised ? "synchronised" : "thesis";
   write_step(json, need.limits, need.limits.greatest_speed);
   write_overlap(json, need.overlap);
-  json["time"] = {{"settling_s", need.settling}, {"before_s", need.before},
-                  {"steps", need.steps},         {"particle_steps", need.particle_steps},
-                  {"expected_s", need.expected}, {"least_s", need.least},
-                  {"most_s", need.most}};
+  json["time"] = seconds_of(dem_time(scene, known_machine()));
+  json["time"].update({{"settling_s", need.settling},
+                       {"before_s", need.before},
+                       {"steps", need.steps},
+                       {"particle_steps", need.particle_steps}});
 }
 
 void print_particle_requirements(const core::Scene& scene, const ParticleRequirements& need) {
@@ -298,14 +297,11 @@ void print_particle_requirements(const core::Scene& scene, const ParticleRequire
   core::print("contacts overlap by up to {:.2g} of the smaller diameter, those of {}; the run stops above {:g}\n",
               need.overlap.share, need.overlap.pair, scene.dem.max_overlap);
   if (need.fluid) print_fluid(*need.fluid);
-  const auto text = [](double seconds) {
-    return seconds < 9.5 ? fmt::format("{:.1g} s", seconds) : core::duration_text(seconds);
-  };
   if (need.settling > 0)
     core::print("the bed settles first, for about {:.2g} s, which takes {} of the time below\n", need.settling,
-                text(need.before));
-  core::print("computing {:.4g} s takes about {} of one core, between {} and {}: {:.3g} steps, {:.3g} particle-steps\n",
-              scene.run.until, text(need.expected), text(need.least), text(need.most), need.steps, need.particle_steps);
+                short_time(need.before));
+  core::print("{:.4g} s takes {}: {:.3g} steps, {:.3g} particle-steps\n", scene.run.until,
+              computing_text(dem_time(scene, known_machine())), need.steps, need.particle_steps);
 }
 
 }  // namespace polybed::multiscale

@@ -34,8 +34,8 @@ struct ParticleRequirements {
   double program = 0, particles = 0;  ///< memory, bytes: the program itself; what grows with the number
   std::optional<FluidNeed> fluid;     ///< absent without one
   double steps = 0, particle_steps = 0;
-  double least = 0, expected = 0, most = 0;  ///< CPU time of the run, s: the middle of a band and its ends
-  double settling = 0, before = 0;           ///< s simulated until a bed that settles first is at rest; of expected
+  double expected = 0;              ///< CPU time of the run by the speed given, s
+  double settling = 0, before = 0;  ///< s simulated until a bed that settles first is at rest; of expected
   [[nodiscard]] std::int64_t count() const;
   /// Of a step that the case gives, and of contacts too soft.
   [[nodiscard]] std::vector<std::string> warnings() const;

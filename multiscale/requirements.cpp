@@ -131,15 +131,11 @@ double growing_steps(const core::Scene& scene, const Requirements& need) {
 }
 
 TimeNeed time_need(const core::Scene& scene, const Requirements& need, double velocity, double per_step) {
-  constexpr double band = 4;  // of finished runs, docs/record/cost.md
   const double packed = packed_time(scene, need, velocity);
   TimeNeed time;
   time.steps = std::max(packed / need.lifted.step + (scene.run.until - packed) / need.expanded.step, 1.0) +
                growing_steps(scene, need);
   time.seconds_per_step = per_step;
-  time.expected = time.steps * per_step;
-  time.least = time.expected / band;
-  time.most = time.expected * band;
   return time;
 }
 

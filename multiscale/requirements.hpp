@@ -24,10 +24,10 @@ struct MemoryNeed {
 /// For which steps are timed, on a part of a bed before a run and on the run itself, CPU s.
 inline constexpr double sample_seconds = 0.25;
 
-/// Computing time of the whole run, s: the middle of a band and its ends.
+/// Computing of the whole run: its steps, and what one takes, CPU s.
 struct TimeNeed {
   double steps = 0, seconds_per_step = 0;
-  double least = 0, expected = 0, most = 0;
+  [[nodiscard]] double computing() const { return steps * seconds_per_step; }
 };
 
 /// A uniform bed with its time scales, cell-free, and the step expected there.

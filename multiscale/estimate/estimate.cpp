@@ -140,7 +140,7 @@ TimeBand tfm_time(const core::Scene& scene, const tfm::Model& model, const Machi
   const double cells = double(scene.column.cells[0]) * scene.column.cells[1] * scene.column.cells[2];
   const double step = tfm_step_seconds(machine, model.integrator_kind() == core::TfmIntegrator::implicit_steps, cells,
                                        scene.species.size(), scene.column.dimensions);
-  return with_start(band_of(expected_of(scene, model, step).time->expected, tfm_middle(model.integrator_kind()),
+  return with_start(band_of(expected_of(scene, model, step).time->computing(), tfm_middle(model.integrator_kind()),
                             factor_of(tfm_factor, machine)),
                     scene, machine);
 }
@@ -150,7 +150,7 @@ TimeBand tfm_time(const core::Scene& scene, const tfm::Model& model, const Machi
 }
 
 TimeBand tfm_time(const core::Scene& scene, const Requirements& need, const Machine& machine) {
-  return with_start(band_of(need.time.value().expected, tfm_middle(need.integrator), tfm_factor), scene, machine);
+  return with_start(band_of(need.time.value().computing(), tfm_middle(need.integrator), tfm_factor), scene, machine);
 }
 
 TimeBand dem_time(const core::Scene& scene, const Machine& machine) {

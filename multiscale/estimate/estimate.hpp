@@ -66,7 +66,10 @@ struct CostEstimate {
 [[nodiscard]] CostEstimate estimate_tfm(const core::Scene& scene, const Machine& machine, double probe, int ranks);
 [[nodiscard]] CostEstimate estimate_dem(const core::Scene& scene, const Machine& machine, double probe, int ranks);
 
-/// "least to most"; members of an object that is open.
+/// {"expected_s", "least_s", "most_s"}.
+[[nodiscard]] core::Json seconds_of(const TimeBand& time);
+
+/// Members of an object that is open.
 void write_estimate(core::Json& json, const CostEstimate& estimate);
 void print_estimate(const core::Scene& scene, const CostEstimate& estimate);
 

@@ -4,23 +4,21 @@
 #include <nlohmann/json.hpp>
 
 #include "core/print.hpp"
-#include "core/progress.hpp"
-#include "multiscale/estimate/estimate.hpp"
+#include "multiscale/card/card.hpp"
 
 namespace polybed::multiscale {
 
 namespace {
-
-std::string time_text(double seconds) {
-  constexpr double short_time = 9.5;  // what rounds to one digit
-  return seconds < short_time ? fmt::format("{:.2g} s", seconds) : core::duration_text(seconds);
-}
 
 std::string bytes_text(double bytes) {
   return bytes < 1e9 ? fmt::format("{:.3g} MB", 1e-6 * bytes) : fmt::format("{:.3g} GB", 1e-9 * bytes);
 }
 
 }  // namespace
+
+core::Json seconds_of(const TimeBand& time) {
+  return {{"expected_s", time.expected}, {"least_s", time.least}, {"most_s", time.most}};
+}
 
 void write_estimate(core::Json& json, const CostEstimate& e) {
   core::Json ways = core::Json::array();
@@ -44,9 +42,9 @@ void print_estimate(const core::Scene& scene, const CostEstimate& e) {
   constexpr std::string_view continuum = "tfm";
   core::print("{:.4g} s by the {} on {} rank{}: about {} of computing, with 80 % confidence {} to {}\n",
               scene.run.until, e.model == continuum ? "two-fluid model" : "particle model", e.ranks,
-              e.ranks > 1 ? "s" : "", time_text(e.time.expected), time_text(e.time.least), time_text(e.time.most));
+              e.ranks > 1 ? "s" : "", short_time(e.time.expected), short_time(e.time.least), short_time(e.time.most));
   core::print("  based on  {}\n", e.basis);
-  if (e.ranks > 1) core::print("  wall time {}\n", time_text(e.wall));
+  if (e.ranks > 1) core::print("  wall time {}\n", short_time(e.wall));
   core::print("  steps     {:.0f} of {:.2g} s, limited by {}\n", e.steps, e.step, e.limited_by);
   core::print("  memory    {}\n  disk      {}\n", bytes_text(e.memory), bytes_text(e.disk));
   core::print("to shorten it, and what each way costs:\n");

@@ -20,7 +20,7 @@ class Needs(Scratch):
         for line in (r"3564 cells, 29160 unknowns; integrator imex", r"memory about \d+ MB: state [\d.]+, fields [\d.]+",
                      r"  at rest  \(solids fraction 0.62\): convection [\d.]+ s, drag [\d.e-]+ s, acoustics [\d.e-]+ s, "
                      r"bulk viscosity [\d.e-]+ s, expected step [\d.e-]+ s", r"  expanded \(solids fraction 0\.\d+\): ",
-                     r"computing 20 s takes about .* here, between .* and .*: [\d.e+]+ steps of [\d.e-]+ s"):
+                     r"20 s takes about .* of computing, .* to .*: [\d.e+]+ steps of [\d.e-]+ s"):
             self.assertRegex(text, line)
 
     def test_scales_follow_the_case(self):
@@ -82,13 +82,12 @@ class Needs(Scratch):
         self.assertEqual(*told)
 
     def test_time_is_of_the_order_of_that_of_a_run(self):
-        """A loose test: the machine is shared. The band is a factor of 4 either way; a factor of 10 is asked for."""
+        """A loose test: the machine is shared. A factor of 10 is asked for."""
         for name, words in (("explicit", [*SMALL, *setting(run__until=1)]),
                             ("implicit", [*SMALL, *setting(run__until=1, tfm__integrator="implicit")])):
             with self.subTest(name):
                 time = answer(*words)["time"]
-                self.assertAlmostEqual(time["least_s"] * 4, time["expected_s"], delta=1e-9 * time["expected_s"])
-                self.assertAlmostEqual(time["most_s"] / 4, time["expected_s"], delta=1e-9 * time["expected_s"])
+                self.assertTrue(time["least_s"] < time["expected_s"] < time["most_s"], time)
                 done = self.ends(DONE, "tfm", CASE, *words, "--quiet", "--json", "-o", self.folder / name)
                 record = strict_json(done.stdout)
                 for told, measured in ((time["expected_s"], record["cpu_s"]), (time["steps"], record["work"]["steps"])):
