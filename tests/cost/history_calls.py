@@ -9,44 +9,16 @@ import subprocess
 import sys
 import tempfile
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
+TESTS = pathlib.Path(__file__).resolve().parents[1]
+sys.path[:0] = [str(TESTS), str(TESTS / "cli")]
 import open_mpi  # noqa: E402
+from program import small_bed  # noqa: E402
 
-CASE = """[column]
-size = ["10 mm", "40 mm"]
-cells = [4, 24]
-sides = "periodic"
-[fluid]
-name = "water"
-density = 999
-viscosity = "1.14e-3 Pa s"
-[[species]]
-name = "fine"
-diameter = "0.8 mm"
-density = 1395
-[[species]]
-name = "coarse"
-diameter = "2 mm"
-density = 1170
-[bed]
-volume_share = [0.8, 0.2]
-static_height = "12 mm"
-solids_fraction = 0.6
-start_solids_fraction = 0.4
-[inlet]
-superficial_velocity = "20 mm/s"
-[effects]
-others = "none"
-drag = "cello"
-solids_stress = "frictional"
-contact = "hertz_mindlin"
-[tfm]
+CASE = small_bed("2 ms") + """[tfm]
 integrator = "explicit"
 fixed_step = "0.1 ms"
 [dem]
 fixed_step = "5 us"
-[run]
-until = "2 ms"
 [output]
 every = 1
 checkpoint_every = 1
