@@ -1,19 +1,18 @@
-"""A sweep held to what it said: its recommendation run again, and two sweeps of one case compared."""
+"""A sweep held to what it said: its recommendation run again."""
 
 import tempfile
 import tomllib
-from math import inf
 from pathlib import Path
 from typing import NamedTuple
 
 from polybed.cost.quantities import measure_on, quantities_of_run
 from polybed.cost.runner import Runner, RunOrder
 from polybed.cost.scene import Scene
-from polybed.files import FormatError, contents_of, read_json, read_text
+from polybed.files import contents_of, read_json, read_text
 from polybed.in_place import put_text
 from polybed.ending import NUMBERS, WRONG_CASE, StudyError, answer
 
-TIME_ALLOWED, DEARER_ALLOWED, AS_ACCURATE, ROUNDING = 0.25, 0.1, 1.01, 1e-9
+TIME_ALLOWED, ROUNDING = 0.25, 1e-9
 
 
 class Checked(NamedTuple):
@@ -29,10 +28,6 @@ class Checked(NamedTuple):
     def told(self, what, unit):
         return (f"{what}: claimed {self.claimed:.4g}, found {self.found:.4g} {unit}, allowed {self.allowed:.2g} either way: "
                 f"{'holds' if self.holds else 'does not hold'}")
-
-
-def read_sweep(path):
-    return read_json(Path(path), "polybed cost")
 
 
 def scene_of(sweep):
@@ -71,7 +66,7 @@ def check_recommendation(folder):
     """Runs the recommendation of DIR/cost.json again: its error has to lie within its interval, its time within 25 %. Says so, and in the
     file; returns whether both hold."""
     path = folder / "cost.json"
-    sweep = read_sweep(path)
+    sweep = read_json(path, "polybed cost")
     with contents_of(path):
         advised = next(iter(sweep["recommend"]), None)
     if advised is None:
@@ -87,56 +82,3 @@ def check_recommendation(folder):
     if error.holds and time.holds:
         confirm(path)
     return error.holds and time.holds
-
-
-def ranking_of(sweep):
-    for quantity in sweep["qoi"]:
-        if quantity["shown"]:
-            return quantity["id"]
-    raise FormatError("no quantity in cost.json")
-
-
-class Dearer(NamedTuple):
-    """A setting of the old sweep's front and what the same error costs in the new one."""
-    error: float
-    before: float
-    now: float  # 0 where no run of the new sweep is as accurate
-
-    def told(self):
-        if self.now > 0:
-            return (f"error {self.error:.3g}: {self.now:.3g} s for a simulated second, was {self.before:.3g}: "
-                    f"{self.now / self.before:.2g} times as dear")
-        return f"error {self.error:.3g}: no run is as accurate; took {self.before:.3g} s for a simulated second"
-
-
-def points_of(sweep, statuses):
-    """(error, cost) of the ranked runs of these statuses."""
-    name = ranking_of(sweep)
-    return [(run["qoi"][name]["error"], run["s_per_sim_s"]) for run in sweep["runs"]
-            if run["kind"] == "candidate" and run["status"] in statuses and name in run["qoi"]]
-
-
-def dearer(before, now):
-    """Of each run on the old front the cheapest run of the new sweep that is at least as accurate (to 1 % of the error), where it is more
-    than 10 % dearer. Raises FormatError for sweeps of other cases, quantities, clocks or weights."""
-    if before["case_hash"] != now["case_hash"]:
-        raise FormatError("sweeps of other cases")
-    if ranking_of(before) != ranking_of(now):
-        raise FormatError("sweeps that rank by other quantities")
-    if (before["clock"], before["work_version"]) != (now["clock"], now["work_version"]):
-        raise FormatError("sweeps by other clocks, or by other weights of the work")
-    found, all_now = [], points_of(now, ("pareto", "dominated", "hollow"))
-    for error, cost in points_of(before, ("pareto",)):
-        cheapest = min((c for e, c in all_now if e <= AS_ACCURATE * error), default=inf)
-        if cheapest > (1 + DEARER_ALLOWED) * cost:
-            found.append(Dearer(error, cost, 0.0 if cheapest == inf else cheapest))
-    return found
-
-
-def print_difference(before, now):
-    """The same of two files, told; whether nothing is dearer."""
-    sweeps = [read_sweep(before), read_sweep(now)]
-    with contents_of(now):
-        found = dearer(*sweeps)
-    answer("\n".join(d.told() for d in found) or "nothing is dearer by more than 10 % at the same error")
-    return not found

@@ -8,7 +8,7 @@ from contextlib import suppress
 from pathlib import Path
 
 from polybed.cost.axes import MAKERS
-from polybed.cost.check import check_recommendation, print_difference
+from polybed.cost.check import check_recommendation
 from polybed.cost.course import run_sweep
 from polybed.cost.markdown import sweep_markdown
 from polybed.cost.report import SweepOf, sweep_json, write_sweep
@@ -42,17 +42,6 @@ def budget_of(text):
     return float(found[1]) * SECONDS[found[2] or "s"]
 
 
-def between(low, high):
-    """The type of an option that is a whole number in a range."""
-    def read(text):
-        number = int(text)
-        if not low <= number <= high:
-            raise argparse.ArgumentTypeError(f"{number} is not in the range {low} to {high}")
-        return number
-    read.__name__ = "whole number"
-    return read
-
-
 def listed(text):
     return [word for word in text.split(",") if word]
 
@@ -62,7 +51,7 @@ def parser():
                                       description="Runs a case at several settings, measures how far each is from a reference and what "
                                                   "it costs, and recommends the cheapest within an error.")
     options.add_argument("words", nargs="+", metavar="WORDS",
-                         help="CASE: the study; check DIR: run its recommendation again; diff OLD.json NEW.json: what became dearer; "
+                         help="CASE: the study; check DIR: run its recommendation again; "
                               "selftest: problems with known answers")
     options.add_argument("--set", action="append", default=[], metavar="KEY=VALUE", help="in place of what the file says")
     options.add_argument("-o", "--output", type=Path, help="folder; default runs/<case name>-cost")
@@ -75,11 +64,9 @@ def parser():
                               f"{', '.join(name for name, (_, usual, _) in MAKERS.items() if usual)}, where they act)")
     options.add_argument("--target", default="1%", help="largest error allowed (default: 1%%)")
     options.add_argument("--budget", default="20min", help="wall time of the whole study (default: 20min)")
-    options.add_argument("--repeat", type=between(3, 100), default=5, help="runs of which a CPU time is the median (default: 5)")
-    options.add_argument("--clock", choices=("work", "cpu", "wall"), default="work",
-                         help="time that counts: work (counted operations, the same every time), cpu or wall (default: work)")
+    options.add_argument("--clock", choices=("work", "wall"), default="work",
+                         help="time that counts: work (counted operations, the same every time) or wall (default: work)")
     options.add_argument("--reference", default="auto", help="auto, exact (force balance, one species), or the directory of a run")
-    options.add_argument("--seed", type=between(0, 2**64 - 1), default=1, help="of the random order of repetitions")
     options.add_argument("--resume", action="store_true", help="go on with the runs in the folder")
     options.add_argument("--force", action="store_true", help="replace a study that exists")
     options.add_argument("--quiet", action="store_true", help="no progress")
@@ -98,8 +85,8 @@ def model_of(scene, wanted):
 
 
 def sweep_options(given, scene):
-    return SweepOptions(model_of(scene, given.model), given.qoi, given.axes, target_of(given.target), budget_of(given.budget), given.repeat,
-                        given.clock, given.reference, given.seed, given.quiet or given.json)
+    return SweepOptions(model_of(scene, given.model), given.qoi, given.axes, target_of(given.target), budget_of(given.budget), given.clock,
+                        given.reference, given.quiet or given.json)
 
 
 def overrides_of(given):
@@ -138,9 +125,9 @@ def selftest():
 def work(given):
     """Does what the words ask for; returns the code to end with."""
     commands = {"check": ("check DIR", lambda folder: check_recommendation(Path(folder))),
-                "diff": ("diff OLD.json NEW.json", print_difference), "selftest": ("selftest", selftest)}
+                "selftest": ("selftest", selftest)}
     first, *rest = given.words
-    usage, do = commands.get(first, ("CASE, check DIR, diff OLD NEW or selftest", lambda: sweep(given)))
+    usage, do = commands.get(first, ("CASE, check DIR or selftest", lambda: sweep(given)))
     if len(given.words) != (len(usage.split()) if first in commands else 1):
         raise StudyError(WRONG_CASE, f"usage: polybed cost {usage}")
     return DONE if do(*rest) else NUMBERS

@@ -28,8 +28,6 @@ def run_sweep(scene, options, runner):
     sweeper.run_lines(MODEL)
     attribution.run_inputs(sweeper)
     sweeper.run_lines(MACHINE)
-    if sweep.options.clock == "cpu":
-        front.repeat_for_time(sweeper)
     for row in sweep.rows:
         measure_errors(sweep, row)
     measure_distances(sweep)

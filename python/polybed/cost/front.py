@@ -1,18 +1,15 @@
-"""The front that the lines predict, which is then run, and the times of its runs."""
+"""The front that the lines predict, which is then run."""
 
 import itertools
-import os
 from math import inf, isfinite, log
+from statistics import median
 
 from polybed.cost.axes import NUMERICS
 from polybed.cost.fit import Priced, fit_power_law, pareto_front
 from polybed.cost.judge import distance_of
-from polybed.cost.random import uniform
-from polybed.cost.sweep import CANDIDATE, REFERENCE, Row
-from polybed.cost.timing import timing_of, too_noisy
+from polybed.cost.sweep import REFERENCE, Row
 
 MOST_FRONT = 6  # runs of the predicted front
-LEAST_TIMES = 3  # of which quartiles say how far they scatter
 
 
 def line_error(sweeper, name, level):
@@ -79,28 +76,4 @@ def compare_predictions(sweeper):
         if row.predicted and row.done and changed >= 2 and quantity is not None and quantity.error > max(floor, 0.0):
             off.append(abs(row.predicted.error - quantity.error) / quantity.error)
     if off:
-        sweep.additive_off = timing_of(off).median
-
-
-def repeat_for_time(sweeper):
-    """Candidates again, in random order, for the clock of CPU time; the first of each is the warm-up."""
-    sweep = sweeper.sweep
-    candidates = [row for row in sweep.rows if row.kind == CANDIDATE and row.done]
-    turns = [(row, again) for row in candidates for again in range(1, sweep.options.repeat + 1)]
-    order = sorted((float(uniform(sweep.options.seed, 0, k)), k) for k in range(len(turns)))
-    for row in sweep.rows:
-        row.cpu = [] if row.kind == CANDIDATE else row.cpu
-    load, cores = os.getloadavg()[0], len(os.sched_getaffinity(0))
-    for _, k in order:
-        row, again = turns[k]
-        outcome = sweeper.runner.run(row.order, sweeper.left(), again)
-        row.cpu += [outcome.cpu] if outcome.done else []
-    for row in candidates:
-        if len(row.cpu) < LEAST_TIMES and sweep.outcome == "done":
-            sweep.refuse(f"timings cannot be judged: {len(row.cpu)} of {sweep.options.repeat} repetitions were done within the budget")
-        if row.cpu:
-            timing = timing_of(row.cpu)
-            row.rate = timing.median / row.outcome.simulated
-            noisy = too_noisy(timing, load, cores)
-            if noisy and sweep.outcome == "done":
-                sweep.refuse(noisy)
+        sweep.additive_off = median(off)

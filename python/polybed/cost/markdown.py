@@ -4,7 +4,6 @@ from pathlib import Path
 
 from polybed.cost.judge import advice, settings_text
 from polybed.cost.sweep import REFERENCE as KIND_REFERENCE
-from polybed.cost.timing import timing_of
 from polybed.cost.words import CLOCKS, REFERENCE, STATUS, part
 from polybed.cost.work import weighed
 
@@ -39,8 +38,7 @@ def table_of(sweep):
     lines = ["| # | settings | s for a simulated s | work, s | CPU, s |" + "".join(f" error of {name}, % |" for name in names) + " |",
              "| ---: | --- | ---: | ---: | ---: |" + " ---: |" * len(names) + " --- |"]
     for n, row in enumerate(sweep.rows):
-        seconds = timing_of(row.cpu).median if row.cpu else 0.0
-        cells = [str(n), settings_text(sweep, row), f"{row.rate:.3g}", f"{weighed(row.outcome.counters):.3g}", f"{seconds:.3g}",
+        cells = [str(n), settings_text(sweep, row), f"{row.rate:.3g}", f"{weighed(row.outcome.counters):.3g}", f"{row.outcome.cpu:.3g}",
                  *(cell_of(row, name) for name in names), status_of(sweep, n)]
         lines.append(f"| {' | '.join(cells)} |")
     return lines

@@ -1,4 +1,4 @@
-"""What a sweep leaves: cost.json, cost.csv, cost.md and pictures."""
+"""What a sweep leaves: cost.json, cost.md and pictures."""
 
 import os
 from dataclasses import dataclass
@@ -6,7 +6,6 @@ from math import isfinite
 
 from polybed.cost.judge import level_of, scale_of
 from polybed.cost.markdown import sweep_markdown
-from polybed.cost.timing import Timing, timing_of
 from polybed.cost.work import VERSION, weighed
 from polybed.in_place import put_text
 from polybed.runner import call
@@ -64,7 +63,7 @@ def row_json(sweep, row):
                   for name, q in in_order(row.quantities).items()}
     predicted = {"predicted": {"error": row.predicted.error, "cost": row.predicted.cost}} if row.predicted else {}
     return {"kind": row.kind, **settings_of(sweep, row), "work": in_order(outcome.counters), "work_s": weighed(outcome.counters),
-            "simulated_s": outcome.simulated, "s_per_sim_s": row.rate, "cpu_s": row.cpu, "wall_s": [outcome.wall], "qoi": quantities,
+            "simulated_s": outcome.simulated, "s_per_sim_s": row.rate, "cpu_s": [outcome.cpu], "wall_s": [outcome.wall], "qoi": quantities,
             **predicted, "status": row.status, "reason": outcome.reason}
 
 
@@ -104,33 +103,9 @@ def sweep_json(sweep, of):
     return json_text(plain(found))
 
 
-def number(value):
-    return "" if value is None else f"{value:.9g}"
-
-
-def csv_row(sweep, row, counters):
-    timing, outcome = timing_of(row.cpu) if row.cpu else Timing(), row.outcome
-    entries = [row.kind, row.note, row.status, number(row.rate), number(weighed(outcome.counters)),
-               *(f"{value:.6g}" for value in (timing.median, timing.deviation, outcome.wall))]
-    entries += [axis.levels[level_of(row, axis)].label if row.settings else "" for axis in sweep.axes]
-    entries += [f"{outcome.counters[name]:.17g}" if name in outcome.counters else "" for name in counters]
-    for info in sweep.quantities:
-        q = row.quantities.get(info.id)
-        entries += [number(q.value), number(q.interval), f"{q.error:.6g}", number(q.error_interval)] if q else [""] * 4
-    return ",".join(entries)
-
-
-def sweep_csv(sweep):
-    """cost.csv: a row for each run."""
-    counters = list(dict.fromkeys(name for row in sweep.rows for name in sorted(row.outcome.counters)))
-    head = ["kind", "note", "status", "s_per_sim_s", "work_s", "cpu_median_s", "cpu_deviation_s", "wall_s", *(a.name for a in sweep.axes),
-            *counters, *(q.id + ending for q in sweep.quantities for ending in ("", "_ci", "_error", "_error_ci"))]
-    return "\n".join([",".join(head), *(csv_row(sweep, row, counters) for row in sweep.rows)]) + "\n"
-
-
 def write_sweep(sweep, of, folder, picture):
     """All of them. Returns why there is no picture, if one was asked for."""
-    texts = {"cost.json": sweep_json(sweep, of) + "\n", "cost.csv": sweep_csv(sweep), "cost.md": sweep_markdown(sweep, of)}
+    texts = {"cost.json": sweep_json(sweep, of) + "\n", "cost.md": sweep_markdown(sweep, of)}
     for name, text in texts.items():
         put_text(folder / name, text)
     if not picture:

@@ -85,11 +85,10 @@ class Runner:
         self.seen = set()
         self.spent = 0.0  # s, wall time of all runs that stand for this sweep: those found there count as if they had been done now
 
-    def run(self, order, seconds, again=0):
-        """Does a run, unless it was done. seconds: wall time that it may take; again: 0 for the run itself, 1, 2, ... for a repetition"""
+    def run(self, order, seconds):
+        """Does a run, unless it was done. seconds: wall time that it may take"""
         told = (self.scene.text, " ".join(self.overrides), order.model, str(order.ranks), " ".join(order.overrides))
-        name = hash_of(" ".join(told).encode())
-        folder = self.folder / (f"{name}-{again}" if again else name)
+        folder = self.folder / hash_of(" ".join(told).encode())
         if folder not in self.seen and not (self.resume and self.ended(folder)):
             if not seconds > 0:
                 return RunOutcome("not run", "the budget was over")

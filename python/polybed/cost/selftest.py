@@ -9,7 +9,7 @@ import numpy as np
 from polybed.cost.fit import ErrorModel, cheapest, fit_power_law
 from polybed.cost.judge import carries
 from polybed.cost.refinement import refine
-from polybed.cost.timing import is_chaotic, timing_of, too_noisy
+from polybed.cost.sweeper import is_chaotic
 from polybed.runner import call
 from polybed.ending import answer
 
@@ -68,12 +68,6 @@ def k5():
     loose, tight = carries(0.01, errors, 0.01), carries(1e-5, errors, 0.01)
     word = {True: "taken", False: "refused"}
     return Oracle("K5", f"disagreement 1 %: {word[loose]}, 0.001 %: {word[tight]}", "refused, taken", tight and not loose)
-
-
-def k6():
-    """Times that scatter by 30 %, and by 2 %."""
-    noisy, calm = (too_noisy(timing_of([1 + spread * (2 * n / 4 - 1) for n in range(5)]), 1, 2) for spread in (0.3, 0.02))
-    return Oracle("K6", noisy or "nothing", "machine busy, and nothing for 2 %", bool(noisy) and not calm)
 
 
 def lorenz(y):
@@ -136,7 +130,7 @@ def oracles():
     """K1 to K7 and K12 to K14 of the specification of cost; the others need runs."""
     computed = json.loads(call("stability", "--oracles"))
     measures = computed["measures"]
-    return [k1(), k2(computed["coverage"]), k3(), k4(computed["settling"]), k5(), k6(), k7(), k12(), k13(measures["bed_height"]),
+    return [k1(), k2(computed["coverage"]), k3(), k4(computed["settling"]), k5(), k7(), k12(), k13(measures["bed_height"]),
             k14(measures, computed["composition"])]
 
 

@@ -19,10 +19,8 @@ class SweepOptions:
     axes: list = field(default_factory=list)  # empty: by default
     target: float = 0.01  # error
     budget: float = 1200.0  # wall time, s
-    repeat: int = 5
-    clock: str = "work"  # work | cpu | wall
+    clock: str = "work"  # work | wall
     reference: str = "auto"  # auto | exact | a directory of a run
-    seed: int = 1
     quiet: bool = False
 
 
@@ -44,7 +42,6 @@ class Row:
     measured: RunQuantities = field(default_factory=RunQuantities)
     quantities: dict = field(default_factory=dict)  # RowQuantity by name
     rate: float = 0.0  # s for a simulated second, by the clock
-    cpu: list = field(default_factory=list)  # s, of the run and its repetitions
     predicted: Priced | None = None
     status: str = ""  # pareto | dominated | hollow | model | predicted | failed | refused | not run
 

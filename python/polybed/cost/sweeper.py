@@ -3,12 +3,13 @@
 import sys
 from contextlib import suppress
 
+import numpy as np
+
 from polybed.cost.axes import MACHINE, MODEL, NUMERICS, axes_of, setting
 from polybed.cost.judge import settings_text
 from polybed.cost.quantities import measure_on, quantities_of, quantities_of_run
 from polybed.cost.runner import RunOrder, RunOutcome
 from polybed.cost.sweep import CANDIDATE, TWIN, Row, Sweep
-from polybed.cost.timing import is_chaotic
 from polybed.ending import WRONG_CASE, StudyError
 from polybed.study.measured import TimeMean, centre_column, species_of, within
 
@@ -16,6 +17,7 @@ WINDOW_BEGIN = 0.75  # of the run: the last quarter
 OVERDRAFT = 1.08  # of the budget, which is kept to a tenth
 PROFILES, HISTORY_ROWS = 40, 800  # of a run, a quarter of them in the window
 MUCH_DEARER = 1e3  # than a continuum particles are taken to be
+PARTED, CONSTANT = 1e-2, 1e-9  # shares of what a signal varies by, of its mean
 
 
 def common_overrides(scene):
@@ -35,6 +37,17 @@ def checked_quantities(options, known, species):
         raise StudyError(WRONG_CASE, f"--qoi {found[0]}: a distance from the reference has no uncertainty to rank by; name another "
                                      "quantity first")
     return found
+
+
+def is_chaotic(signal, twin):
+    """Whether two runs that differ by 1e-10 part by more than a hundredth of what the signal varies by. What is constant to 1e-9 of its
+    mean is steady. signal, twin: the same quantity at the same times"""
+    count = min(len(signal), len(twin))
+    if count < 2:
+        return False
+    signal, twin = np.asarray(signal[:count]), np.asarray(twin[:count])
+    deviation, distance = signal.std(), np.abs(signal - twin).max()
+    return bool(deviation > CONSTANT * abs(signal.mean()) and distance > PARTED * deviation)
 
 
 class Sweeper:
@@ -136,7 +149,7 @@ class Sweeper:
         if row.outcome.measured:
             row.measured = quantities_of_run(row.outcome.measured, sweep.on)
         row.outcome.measured = None
-        row.cpu, row.rate = [row.outcome.cpu], row.outcome.rate(sweep.options.clock)
+        row.rate = row.outcome.rate(sweep.options.clock)
         reason = f" ({row.outcome.reason})" if row.outcome.reason else ""
         self.tell(f"{settings_text(sweep, row)}: {row.outcome.state}{reason}")
         sweep.rows.append(row)

@@ -15,7 +15,7 @@ PARTS = {"space": "size of the cells", "solver and coupling tolerance": "toleran
 # what a sweep varies
 AXES = {"rtol": "relative tolerance (tfm.rtol)", "grid": "cells", "steps": "steps per contact (dem.steps_per_contact)",
         "coupling": "steps of the particles in one of the fluid (dem.fluid_every)"}
-CLOCKS = {"work": "counted work", "cpu": "CPU time", "wall": "wall time"}
+CLOCKS = {"work": "counted work", "wall": "wall time"}
 
 
 def in_words(axis, level):

@@ -14,18 +14,14 @@ PROGRAM, PACKAGE = sys.argv[1:3]
 sys.path.insert(0, PACKAGE)
 os.environ["POLYBED"] = PROGRAM
 
-from polybed.cost import check, command, quantities, selftest  # noqa: E402
+from polybed.cost import command, quantities, selftest  # noqa: E402
 from polybed.cost.axes import axes_of, grid_level, numbers  # noqa: E402
 from polybed.cost.fit import ErrorModel, PowerLaw, Priced, cheapest, fit_power_law, pareto_front  # noqa: E402
 from polybed.cost.judge import advice, carries  # noqa: E402
-from polybed.cost.markdown import sweep_markdown  # noqa: E402
-from polybed.cost.random import uniform  # noqa: E402
 from polybed.cost.refinement import refine  # noqa: E402
-from polybed.cost.runner import RunOrder, RunOutcome  # noqa: E402
-from polybed.cost.sweep import Row, Share, Sweep, SweepOptions  # noqa: E402
-from polybed.cost.timing import is_chaotic, timing_of, too_noisy  # noqa: E402
+from polybed.cost.sweep import Share, Sweep, SweepOptions  # noqa: E402
+from polybed.cost.sweeper import is_chaotic  # noqa: E402
 from polybed.cost.work import counters_of, weighed  # noqa: E402
-from polybed.files import FormatError  # noqa: E402
 from polybed.ending import StudyError  # noqa: E402
 from polybed.study.measured import Window  # noqa: E402
 from stored_run import Written  # noqa: E402
@@ -98,27 +94,10 @@ class Refinement(unittest.TestCase):
             refine(1, 2, 3, 1.2)
 
 
-class Times(unittest.TestCase):
-    def test_median_and_spread_by_hand(self):
-        self.assertEqual(timing_of([5, 1, 2, 4, 3]), (3, 1, 2))  # the median of 2, 2, 1, 1, 0; 4 less 2
-        self.assertEqual(timing_of([1, 2]).median, 1.5)
-        with self.assertRaises(ValueError):
-            timing_of([])
-
-    def test_noise_is_told_and_not_ranked(self):
-        """K6: noise of 30 % either way, evenly spread over five times, spans 30 % between the quartiles."""
-        self.assertIn("machine busy", too_noisy(timing_of([0.7, 0.85, 1.0, 1.15, 1.3]), 1, 2))
-        calm = timing_of([0.98, 0.99, 1.0, 1.01, 1.02])
-        self.assertIsNone(too_noisy(calm, 1, 2))
-        self.assertIn("load 2.5 on 2 cores", too_noisy(calm, 2.5, 2))
-
+class Regime(unittest.TestCase):
     def test_what_stands_still_is_steady(self):
         """Chaos itself is K7 of the selftest."""
         self.assertFalse(is_chaotic([1.0] * 9, [1.0 + 1e-15] * 9))
-
-    def test_random_numbers_are_those_of_the_program(self):
-        """core::uniform of seed 7, sequence 3, index 5, as C++ prints it to 17 digits."""
-        self.assertEqual(f"{float(uniform(7, 3, 5)):.17g}", "0.67572910860470858")
 
 
 class Work(unittest.TestCase):
@@ -168,32 +147,6 @@ class Judgement(unittest.TestCase):
         lines = self.advised(Share("time integration", 0.0, "rtol"), Share("space", None, "not run", ["grid"]))
         self.assertNotIn("largest", "".join(lines))
         self.assertIn("To measure them: --axes grid.", "".join(lines))
-
-    def test_the_table_has_the_median_of_the_times(self):
-        """Of repetitions the middle one is told, as in cost.csv: the first also reads the program from the disk."""
-        sweep = Sweep(SweepOptions(quantities=["bed_height"]), outcome="refused")
-        sweep.rows = [Row(RunOrder("tfm"), outcome=RunOutcome("failed"), status="failed", cpu=times) for times in ([9, 1.25, 2.5], [])]
-        text = sweep_markdown(sweep, SimpleNamespace(path="case.toml", commit="none"))
-        self.assertIn("| 2.5 |", text)
-        self.assertNotIn("| 9 |", text)
-
-
-def sweep(*runs):
-    return {"case_hash": "a", "clock": "work", "work_version": 1, "qoi": [{"id": "bed_height", "shown": True}],
-            "runs": [{"kind": "candidate", "status": status, "s_per_sim_s": cost, "qoi": {"bed_height": {"error": error}}}
-                     for error, cost, status in runs]}
-
-
-class Difference(unittest.TestCase):
-    def test_what_the_same_error_costs_more(self):
-        before = sweep((0.01, 1, "pareto"), (0.002, 5, "pareto"))
-        self.assertEqual(check.dearer(before, before), [])
-        self.assertEqual(check.dearer(before, sweep((0.002, 1.09, "pareto"))), [])  # 9 % dearer, and more accurate
-        found = check.dearer(before, sweep((0.01, 1.2, "pareto"), (0.02, 0.5, "pareto")))
-        self.assertEqual([d.now for d in found], [1.2, 0])  # for the second no run is as accurate
-        for key, other in (("case_hash", "b"), ("clock", "cpu"), ("work_version", 2), ("qoi", [{"id": "mixing", "shown": True}])):
-            with self.assertRaises(FormatError):
-                check.dearer(before, sweep() | {key: other})
 
 
 class Axes(unittest.TestCase):
