@@ -174,10 +174,6 @@ const std::vector<core::Rule>& model_rules() {
   return all;
 }
 
-std::vector<std::string> only_for_particles(const Scene& scene) {
-  return core::texts_of(core::problems_of(model_rules(), scene));
-}
-
 const Scene& continuum_scene(const Scene& scene) {
   core::refuse(model_rules(), scene);
   return scene;

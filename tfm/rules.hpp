@@ -25,10 +25,7 @@ namespace polybed::tfm {
 /// What this model alone asks of a scene: each rule names what is for the DEM only.
 [[nodiscard]] const std::vector<core::Rule>& model_rules();
 
-/// What in a scene is for the DEM only, one message each that names the key; empty: the two-fluid model can run it.
-[[nodiscard]] std::vector<std::string> only_for_particles(const core::Scene& scene);
-
-/// The scene; throws core::CaseError with all of these messages.
+/// The scene; throws core::CaseError with the messages of all rules that it breaks.
 [[nodiscard]] const core::Scene& continuum_scene(const core::Scene& scene);
 
 }  // namespace polybed::tfm

@@ -81,7 +81,7 @@ bool run_as_commands_do(core::Simulation& simulation, const core::Scene& scene, 
 /// A run as particles, if that is what the case is for, or else as a continuum.
 void run_scene(Trial& trial, const core::Scene& scene, double cpu) {
   const double begin = core::cpu_seconds();
-  if (!tfm::only_for_particles(scene).empty() || scene.effects.contains("contact")) {
+  if (!core::problems_of(tfm::model_rules(), scene).empty() || scene.effects.contains("contact")) {
     core::Timers timers;
     dem::Model model(scene, timers);
     Grains grains(trial, model, {.cpu = cpu});
