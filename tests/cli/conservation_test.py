@@ -4,23 +4,13 @@ state that a run goes on from: mass or particles are gone from its checkpoint. U
 import h5py
 
 import program
-from program import CASE, DONE, NUMBERS, SMALL, Scratch, history, strict_json
+from program import CASE, DONE, NUMBERS, SMALL, TWO_DRY, Scratch, history, strict_json
 
 # 100 spheres fall; a step takes some 20 microseconds.
 FALL = """[column]
 size = ["8 mm", "30 mm"]
 cells = [4, 20]
-[fluid]
-name = "none"
-[[species]]
-name = "fine"
-diameter = "1 mm"
-density = 2500
-[[species]]
-name = "coarse"
-diameter = "1.5 mm"
-density = 2000
-[bed]
+""" + TWO_DRY + """[bed]
 particles = [80, 20]
 solids_fraction = 0.6
 start = "mixed"

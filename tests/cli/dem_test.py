@@ -10,23 +10,13 @@ import h5py
 import numpy as np
 
 import program
-from program import DONE, FILE, NUMBERS, WRONG_CASE, Scratch, datasets, history, same_bits, strict_json
+from program import DONE, FILE, NUMBERS, TWO_DRY, WRONG_CASE, Scratch, datasets, history, same_bits, strict_json
 
 # 300 spheres of two sizes that fall in a column with a periodic depth; a step takes about 50 microseconds.
 FALL = """[column]
 size = ["12 mm", "30 mm"]
 cells = [6, 30]
-[fluid]
-name = "none"
-[[species]]
-name = "fine"
-diameter = "1 mm"
-density = 2500
-[[species]]
-name = "coarse"
-diameter = "1.5 mm"
-density = 2000
-[bed]
+""" + TWO_DRY + """[bed]
 particles = [250, 50]
 solids_fraction = 0.6
 start = "mixed"

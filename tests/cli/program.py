@@ -44,6 +44,17 @@ name = "water"
 density = 999
 viscosity = "1.14e-3 Pa s"
 """ + TWO_SIZES
+TWO_DRY = """[fluid]
+name = "none"
+[[species]]
+name = "fine"
+diameter = "1 mm"
+density = 2500
+[[species]]
+name = "coarse"
+diameter = "1.5 mm"
+density = 2000
+"""
 
 
 def small_bed(until):

@@ -27,6 +27,14 @@ STEP = 4e-6  # s
 # A restart is in the middle. Where many touch from the start on, half as many steps make and lose thousands of contacts.
 STEPS, FEWER = 2000, 1000
 
+BEADS = """[[species]]
+name = "a"
+diameter = "1 mm"
+density = 2500
+"""
+LISTED = BEADS + '[bed]\nstart = "list:particles.csv"\n'
+STIFF = 'fixed_step = "4 us"\nyoungs_modulus = "20 MPa"\n'
+
 # dense, in motion, with friction: particles are pushed apart from random places, so that every contact is sheared
 DENSE = """
 [column]
@@ -35,11 +43,7 @@ cells = [5, 4, 4]
 sides = "periodic"
 ends = "periodic"
 gravity = 0
-[[species]]
-name = "a"
-diameter = "1 mm"
-density = 2500
-[bed]
+""" + BEADS + """[bed]
 particles = [560]
 start = "random"
 solids_fraction = 0.6
@@ -47,27 +51,17 @@ solids_fraction = 0.6
 start_speed = "0.3 m/s"
 friction = 0.5
 greatest_speed = "2 m/s"
-fixed_step = "4 us"
-youngs_modulus = "20 MPa"
-"""
+""" + STIFF
 
 # all in one corner of a column with walls, falling and running off to the other end
 CORNER = """
 [column]
 size = ["40 mm", "30 mm"]
 cells = [10, 10]
-[[species]]
-name = "a"
-diameter = "1 mm"
-density = 2500
-[bed]
-start = "list:particles.csv"
-[dem]
+""" + LISTED + """[dem]
 friction = 0.3
 greatest_speed = "3 m/s"
-fixed_step = "4 us"
-youngs_modulus = "20 MPa"
-"""
+""" + STIFF
 
 # sizes of ratio 4: several levels of the search, the synchronised integrator
 UNEQUAL = """
@@ -93,9 +87,7 @@ friction = 0.4
 tangential = "mindlin_deresiewicz"
 rolling_friction = 0.02
 greatest_speed = "2 m/s"
-fixed_step = "4 us"
-youngs_modulus = "20 MPa"
-"""
+""" + STIFF
 
 # a crowd that drifts through all faces and the corner of a periodic box
 CROSSING = """
@@ -105,37 +97,20 @@ cells = [3, 3, 3]
 sides = "periodic"
 ends = "periodic"
 gravity = 0
-[[species]]
-name = "a"
-diameter = "1 mm"
-density = 2500
-[bed]
-start = "list:particles.csv"
-[dem]
+""" + LISTED + """[dem]
 friction = 0.5
 greatest_speed = "4 m/s"
-fixed_step = "4 us"
-youngs_modulus = "20 MPa"
-"""
+""" + STIFF
 
 # a block that drops through a hole, some of it while the run goes on and some stopped by the rim
 EMPTYING = """
 [column]
 size = ["16 mm", "16 mm", "20 mm"]
 cells = [4, 4, 5]
-[[species]]
-name = "a"
-diameter = "1 mm"
-density = 2500
-[bed]
-start = "list:particles.csv"
-[dem]
+""" + LISTED + """[dem]
 friction = 0.3
 greatest_speed = "3 m/s"
-fixed_step = "4 us"
-youngs_modulus = "20 MPa"
-opening = "7 mm"
-"""
+""" + STIFF + 'opening = "7 mm"\n'
 
 # two sizes in water that rises through them, with drag and added mass; two of the larger deep, so that there are pairs that are
 # listed with two images
