@@ -7,15 +7,17 @@ import sys
 from contextlib import suppress
 from pathlib import Path
 
-from polybed.cost.axes import MAKERS
+from polybed.cost import attribution, front
+from polybed.cost.axes import MACHINE, MAKERS, MODEL, NUMERICS, STATISTICS
 from polybed.cost.check import check_recommendation
-from polybed.cost.course import run_sweep
+from polybed.cost.judge import measure_distances, measure_errors, rank, settings_text
 from polybed.cost.markdown import sweep_markdown
+from polybed.cost.reference import find_reference
 from polybed.cost.report import SweepOf, sweep_json, write_sweep
 from polybed.cost.runner import Runner
 from polybed.cost.scene import Scene
-from polybed.cost.sweep import SweepOptions
-from polybed.cost.sweeper import common_overrides
+from polybed.cost.sweep import CANDIDATE, SweepOptions
+from polybed.cost.sweeper import Sweeper, common_overrides
 from polybed.program import name_of
 from polybed.runner import call
 from polybed.study import output_folder
@@ -87,6 +89,39 @@ def model_of(scene, wanted):
 def sweep_options(given, scene):
     return SweepOptions(model_of(scene, given.model), given.qoi, given.axes, target_of(given.target), budget_of(given.budget), given.clock,
                         given.reference, given.quiet or given.json)
+
+
+def run_sweep(scene, options, runner):
+    """A sweep from its first run to its recommendation: lines, reference, front, attribution. One process that starts others."""
+    sweeper = Sweeper(scene, options, runner)
+    sweep = sweeper.sweep
+    if not sweeper.find_regime():
+        return sweep
+    sweeper.run_lines(NUMERICS)
+    sweeper.run_lines(STATISTICS)
+    find_reference(sweeper)
+    if not sweep.reference.kind and sweep.outcome == "done":
+        sweep.refuse("no trustworthy reference")
+    if sweep.outcome == "done":
+        for row in sweep.rows:
+            measure_errors(sweep, row)
+        front.fit_laws(sweeper)
+        front.run_front(sweeper)
+    attribution.run_solver(sweeper)
+    sweeper.run_lines(MODEL)
+    attribution.run_inputs(sweeper)
+    sweeper.run_lines(MACHINE)
+    for row in sweep.rows:
+        measure_errors(sweep, row)
+    measure_distances(sweep)
+    rank(sweep)
+    front.compare_predictions(sweeper)
+    attribution.attribute(sweeper)
+    for row in sweep.rows:
+        if row.kind == CANDIDATE and row.done and sweep.chaotic and row.measured.too_short:
+            sweep.warnings.append(f"{settings_text(sweep, row)}: window too short for {row.measured.too_short}: fewer than 30 "
+                                  "autocorrelation times")
+    return sweep
 
 
 def overrides_of(given):
