@@ -61,13 +61,15 @@ Flow<Real>::Flow(const FlowSetup& setup, const Obstacles& obstacles)
   owner_ = obstacles.owners(sites_);
   on_obstacle_.resize(obstacles.count());
   find_runs();
-  find_links(obstacles, setup.wall);
+  find_links(obstacles);
   populations_.assign(stride_ * directions, 0);
 }
 
 template <class Real>
 void Flow<Real>::find_runs() {
-  layers_.resize(std::size_t(sites_.box[0]));
+  runs_.clear();
+  fluid_sites_ = 0;
+  layers_.assign(std::size_t(sites_.box[0]), {});
   for (int i = 1; i <= sites_.box[0]; ++i) {
     Span& runs = layers_[std::size_t(i - 1)].runs;
     runs.begin = runs_.size();
@@ -88,7 +90,7 @@ void Flow<Real>::find_runs() {
 }
 
 template <class Real>
-void Flow<Real>::find_links(const Obstacles& obstacles, Wall wall) {
+void Flow<Real>::find_links(const Obstacles& obstacles) {
   struct Found {
     int layer;  // from 0; behind all, the rim
     std::int32_t owner, way;
@@ -100,18 +102,23 @@ void Flow<Real>::find_links(const Obstacles& obstacles, Wall wall) {
       if (ways[way][k] != 0 && (at[k] == 1 || at[k] == sites_.box[k])) return sites_.box[0];
     return at[0] - 1;
   };
+  // From the covered sites, which are fewer than those of the fluid.
   std::vector<Found> found;
-  for (int i = 1; i <= sites_.box[0]; ++i)
-    for (int j = 1; j <= sites_.box[1]; ++j)
-      for (int k = 1; k <= sites_.box[2]; ++k) {
-        const std::size_t site = sites_.at(i, j, k);
-        if (owner_[site] != Obstacles::none) continue;
+  for (int i = 0; i < sites_.box[0] + 2; ++i)
+    for (int j = 0; j < sites_.box[1] + 2; ++j)
+      for (int k = 0; k < sites_.box[2] + 2; ++k) {
+        const std::int32_t owner = owner_[sites_.at(i, j, k)];
+        if (owner == Obstacles::none) continue;
         for (std::size_t w = 1; w < directions; ++w) {
-          const std::int32_t owner = owner_[site + std::size_t(sites_.step(ways[w]))];
-          if (owner != Obstacles::none) found.push_back({layer_of({i, j, k}, w), owner, std::int32_t(w), {i, j, k}});
+          const std::array<int, 3> fluid{i - ways[w][0], j - ways[w][1], k - ways[w][2]};
+          if (sites_.in_box(fluid) && owner_[sites_.at(fluid[0], fluid[1], fluid[2])] == Obstacles::none)
+            found.push_back({layer_of(fluid, w), owner, std::int32_t(w), fluid});
         }
       }
   std::stable_sort(found.begin(), found.end(), [](const Found& a, const Found& b) { return a.place() < b.place(); });
+  rim_ = {};
+  bundles_.clear();
+  links_.clear();
   links_.reserve(found.size());
   for (std::size_t n = 0; n < found.size(); ++n) {
     const Found& one = found[n];
@@ -121,20 +128,19 @@ void Flow<Real>::find_links(const Obstacles& obstacles, Wall wall) {
       bundles_.push_back({std::uint32_t(n), 0, one.way, one.owner});
       bundles.end = bundles_.size();
     }
-    links_.push_back(link_of(obstacles, wall, one.at, std::size_t(one.way)));
+    links_.push_back(link_of(obstacles, one.at, std::size_t(one.way)));
     bundles_.back().end = std::uint32_t(n + 1);
   }
 }
 
 template <class Real>
-auto Flow<Real>::link_of(const Obstacles& obstacles, Wall wall, const std::array<int, 3>& at, std::size_t way) const
-    -> Link {
+auto Flow<Real>::link_of(const Obstacles& obstacles, const std::array<int, 3>& at, std::size_t way) const -> Link {
   const std::size_t site = sites_.at(at[0], at[1], at[2]), step = std::size_t(sites_.step(ways[way]));
   const std::size_t covered = site + step, back = site - step, here = place(way, site);
   Link link{std::uint32_t(place(opposite(way), site)), std::uint32_t(place(way, covered)), std::uint32_t(here),
             std::uint32_t(here), 0};
   // Between two walls, a site apart, both equations together give the plain bounce.
-  if (wall == Wall::half_way || owner_[back] != Obstacles::none) return link;
+  if (setup_.wall == Wall::half_way || owner_[back] != Obstacles::none) return link;
   const Point fluid{double(at[0] - 1), double(at[1] - 1), double(at[2] - 1)};
   const double q = obstacles.fraction(owner_[covered], fluid, ways[way]);
   link.behind = std::uint32_t(place(opposite(way), back));
@@ -199,9 +205,11 @@ void Flow<Real>::advance(const Point& force) {
   collide_and_bounce(false);
   halo_.fill(populations_.data());
   bounce(false, rim_);
+  if (!moving_links_.empty()) push_walls(false);
   collide_and_bounce(true);
   halo_.fold(populations_.data());
   bounce(true, rim_);
+  if (!moving_links_.empty()) push_walls(true);
 }
 
 template <class Real>
@@ -215,6 +223,7 @@ std::vector<Point> Flow<Real>::forces() const {
 template <class Real>
 void Flow<Real>::forget_forces() {
   std::fill(on_obstacle_.begin(), on_obstacle_.end(), Point{});
+  std::fill(torque_.begin(), torque_.end(), Point{});
   steps_ = 0;
 }
 
@@ -223,15 +232,21 @@ Point Flow<Real>::force() const {
   return {on_all_[0] / 2, on_all_[1] / 2, on_all_[2] / 2};
 }
 
+/// Between two steps, without the half of the force that the velocity has.
+template <class Real>
+Point Flow<Real>::momentum_at(std::size_t site) const {
+  Point sum{};
+  for (std::size_t w = 1; w < directions; ++w)
+    for (std::size_t a = 0; a < 3; ++a) sum[a] += ways[w][a] * double(populations_[place(w, site)]);
+  return sum;
+}
+
 template <class Real>
 Point Flow<Real>::velocity_at(int i, int j, int k) const {
-  Point u{};
   const std::size_t site = sites_.at(i + 1, j + 1, k + 1);
-  if (owner_[site] != Obstacles::none) return u;
-  for (std::size_t a = 0; a < 3; ++a) {
-    for (std::size_t w = 1; w < directions; ++w) u[a] += ways[w][a] * double(populations_[place(w, site)]);
-    u[a] += force_[a] / 2;
-  }
+  if (owner_[site] != Obstacles::none) return {};
+  Point u = momentum_at(site);
+  for (std::size_t a = 0; a < 3; ++a) u[a] += force_[a] / 2;
   return u;
 }
 
@@ -252,11 +267,7 @@ template <class Real>
 void Flow<Real>::level_density() {
   double sum = 0;
   for (std::size_t site = 0; site < owner_.size(); ++site) {
-    const std::size_t k = site % sites_.row, j = site / sites_.row % std::size_t(sites_.box[1] + 2);
-    const std::size_t i = site / (sites_.row * std::size_t(sites_.box[1] + 2));
-    const bool own = k >= 1 && k <= std::size_t(sites_.box[2]) && j >= 1 && j <= std::size_t(sites_.box[1]) && i >= 1 &&
-                     i <= std::size_t(sites_.box[0]);
-    if (!own || owner_[site] != Obstacles::none) continue;
+    if (owner_[site] != Obstacles::none || !sites_.in_box(sites_.place(site))) continue;
     for (std::size_t w = 0; w < directions; ++w) sum += double(populations_[place(w, site)]);
   }
   for (std::size_t w = 0; w < directions; ++w)
@@ -285,7 +296,7 @@ void Flow<Real>::restore_populations(std::size_t way, const std::vector<double>&
 template <class Real>
 std::size_t Flow<Real>::memory_bytes() const {
   return populations_.size() * sizeof(Real) + owner_.size() * sizeof(owner_[0]) + links_.size() * sizeof(Link) +
-         bundles_.size() * sizeof(Bundle) + runs_.size() * sizeof(Run);
+         bundles_.size() * sizeof(Bundle) + runs_.size() * sizeof(Run) + moving_links_.size() * sizeof(MovingLink);
 }
 
 template class Flow<float>;

@@ -21,6 +21,16 @@ enum class Wall {
                 ///< Phys. 3 (2008) 427): in a steady state independent of the viscosity, as half_way is
 };
 
+/// Of an obstacle that moves, as a rigid body.
+struct Motion {
+  Point centre{}, velocity{}, spin{};
+};
+
+/// Impulses of force on an obstacle and of torque about its centre.
+struct Impulse {
+  Point force{}, torque{};
+};
+
 struct FlowSetup {
   std::array<int, 3> box{};  ///< sites
   double viscosity = 1.0 / 6;
@@ -34,12 +44,23 @@ class Flow {
   /// A fluid at rest. Throws core::CaseError if the box is too large.
   Flow(const FlowSetup& setup, const Obstacles& obstacles);
 
+  /// The fluid moves as a whole: the start of a flow whose walls move with it, or with most of it.
+  void set_velocity(const Point& velocity);
   /// Two steps under a force on each site of the fluid.
   void advance(const Point& force);
 
   /// Force on each obstacle, mean since forget_forces(), without what the pressure that drives the flow adds.
   [[nodiscard]] std::vector<Point> forces() const;
   void forget_forces();
+  /// Since forget_forces(), where obstacles move.
+  [[nodiscard]] std::vector<Impulse> impulses() const;
+  void restore_impulses(const std::vector<Impulse>& impulses);
+
+  /// Walls move from now on, each with its obstacle, while their places stay: enough for Stokes flow.
+  void set_motion(const std::vector<Motion>& motion);
+  /// The obstacles have moved, by less than a cell: walls are found anew. What the fluid loses by a site that is
+  /// covered, and gains by one that is uncovered, is an impulse on the obstacle: with it momentum is exact.
+  void move_to(const Obstacles& obstacles, const std::vector<Motion>& motion);
   /// Sum over all obstacles, mean of the last two steps.
   [[nodiscard]] Point force() const;
   /// Mean velocity over the whole box, obstacles counted with 0: the superficial velocity.
@@ -84,11 +105,20 @@ class Flow {
     std::uint32_t begin, length;
   };
 
+  /// Of a link to a wall that moves.
+  struct MovingLink {
+    Real sent;                   ///< what the motion adds to what comes back
+    std::array<Real, 3> torque;  ///< per impulse
+  };
+
   [[nodiscard]] std::size_t place(std::size_t i, std::size_t site) const { return i * stride_ + site; }
   void find_runs();
-  void find_links(const Obstacles& obstacles, Wall wall);
-  [[nodiscard]] Link link_of(const Obstacles& obstacles, Wall wall, const std::array<int, 3>& at,
-                             std::size_t way) const;
+  void find_links(const Obstacles& obstacles);
+  [[nodiscard]] Link link_of(const Obstacles& obstacles, const std::array<int, 3>& at, std::size_t way) const;
+  [[nodiscard]] Point momentum_at(std::size_t site) const;
+  void cover(std::size_t site, std::int32_t by, const Motion& motion);
+  void uncover(std::size_t site, std::int32_t by, const Motion& motion, const std::vector<std::int32_t>& before);
+  void push_walls(bool second);
   void collide(bool second, const Span& runs);
   void collide_and_bounce(bool second);
   void bounce(bool second, const Span& bundles);
@@ -102,9 +132,11 @@ class Flow {
   std::vector<Run> runs_;
   std::vector<Link> links_;
   std::vector<Bundle> bundles_;
-  std::vector<Layer> layers_;       ///< by x, from 0
-  Span rim_;                        ///< the other bundles
-  std::vector<Point> on_obstacle_;  ///< sums over the steps taken since
+  std::vector<Layer> layers_;             ///< by x, from 0
+  Span rim_;                              ///< the other bundles
+  std::vector<MovingLink> moving_links_;  ///< of each link; empty where obstacles are at rest
+  std::vector<Point> on_obstacle_;        ///< sums over the steps taken since
+  std::vector<Point> torque_;             ///< likewise; empty where obstacles are at rest
   std::int64_t steps_ = 0;
   Point on_all_{};  ///< of the last two steps
   Point force_{};   ///< of the last steps, on a site

@@ -1,7 +1,8 @@
-// What stands still in the flow: sites that it covers, and where it cuts the links between sites.
+// What stands or moves in the flow: sites that it covers, and where it cuts the links between sites.
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -18,6 +19,27 @@ struct Sites {
 
   [[nodiscard]] std::size_t at(int i, int j, int k) const {
     return (std::size_t(i) * std::size_t(box[1] + 2) + std::size_t(j)) * row + std::size_t(k);
+  }
+  /// The inverse of at().
+  [[nodiscard]] std::array<int, 3> place(std::size_t site) const {
+    const std::size_t plane = std::size_t(box[1] + 2) * row;
+    return {int(site / plane), int(site % plane / row), int(site % row)};
+  }
+  /// To a site from the image of a centre that is nearest to it.
+  [[nodiscard]] Point from(const Point& centre, std::size_t site) const {
+    const std::array<int, 3> at = place(site);
+    Point arm;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double d = at[k] - 1 - centre[k];
+      arm[k] = d - box[k] * std::round(d / box[k]);
+    }
+    return arm;
+  }
+  /// Whether it is no site of the layer round the box.
+  [[nodiscard]] bool in_box(const std::array<int, 3>& at) const {
+    for (std::size_t k = 0; k < 3; ++k)
+      if (at[k] < 1 || at[k] > box[k]) return false;
+    return true;
   }
   [[nodiscard]] std::size_t count() const { return std::size_t(box[0] + 2) * std::size_t(box[1] + 2) * row; }
   /// Of one step along an axis, in memory.
