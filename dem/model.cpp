@@ -33,7 +33,7 @@ const core::Scene& fitting(const core::Scene& scene) {
 
 }  // namespace
 
-Model::Model(const core::Scene& scene, core::Timers& timers, std::shared_ptr<const core::Ranks> ranks)
+Model::Model(const core::Scene& scene, core::Timers& timers, std::shared_ptr<const core::Ranks> ranks, FluidBy fluid_by)
     : scene_(fitting(scene)),
       ranks_(std::move(ranks)),
       timers_(timers),
@@ -57,7 +57,7 @@ Model::Model(const core::Scene& scene, core::Timers& timers, std::shared_ptr<con
   if (laws_.film) laws_.film->set_step(limits_.dt);
   measure(start_);
   place(start_, std::vector<std::int32_t>(start_.size(), 1));
-  make_parts(std::vector<Particle>(std::move(start_)));  // which frees them
+  make_parts(std::vector<Particle>(std::move(start_)), fluid_by);  // which frees them
   rebuild();
   find_forces(0);
   if (joined_work_) joined_work_->begin();
@@ -66,7 +66,7 @@ Model::Model(const core::Scene& scene, core::Timers& timers, std::shared_ptr<con
 }
 
 /// A sheared box has no room for a fluid's motion: there it is the flow.
-void Model::make_parts(const std::vector<Particle>& all) {
+void Model::make_parts(const std::vector<Particle>& all, FluidBy fluid_by) {
   const bool sheared = box_.shear_rate != 0;
   const bool fed = is_fed(scene_);
   if (fed) feeding_ = std::make_unique<Feeding>(scene_, materials_, box_, skin_, count_);
@@ -84,7 +84,7 @@ void Model::make_parts(const std::vector<Particle>& all) {
   const double content = fed ? std::max(solids.all, greatest_content(box_, materials_).volume) : solids.all;
   if (has_affine_drag(scene_))
     sheared_ = std::make_unique<AffineDrag>(scene_, materials_, solids, box_.size, force_unit_, energy_unit_);
-  if (scene_.fluid.present() && !sheared) {
+  if (scene_.fluid.present() && !sheared && fluid_by == FluidBy::model) {
     coupling_ =
         std::make_unique<Coupling>(scene_, materials_, ranks_, timers_, Coupling::Units{force_unit_, energy_unit_},
                                    limits_.dt, limits_.greatest_speed, content, count_);
@@ -202,6 +202,17 @@ void Model::stop_in_trouble() const {
 void Model::push(const std::vector<Vector>& dv) {
   for (std::size_t i = 0; i < particles_.owned; ++i)
     for (std::size_t k = 0; k < 3; ++k) particles_.motion[i].v[k] += dv[std::size_t(particles_.species[i])][k];
+  look_ahead();
+}
+
+void Model::kick(const std::vector<Kick>& by_id) {
+  for (std::size_t i = 0; i < particles_.owned; ++i) {
+    const Kick& given = by_id[std::size_t(particles_.id[i])];
+    for (std::size_t k = 0; k < 3; ++k) {
+      particles_.motion[i].v[k] += given.dv[k];
+      particles_.motion[i].w[k] += given.dw[k];
+    }
+  }
   look_ahead();
 }
 

@@ -50,12 +50,24 @@ struct CountedEnergy {
   EnergySum joined_work;  ///< of joined faces, of a sheared box or along gravity
 };
 
+/// Who solves for the fluid of a scene that has one.
+enum class FluidBy {
+  model,  ///< averaged, coupled to the particles
+  caller  ///< resolved between them: it gives each its impulses by kick(), and films stay
+};
+
+/// Of one particle, m/s and rad/s.
+struct Kick {
+  Vector dv{}, dw{};
+};
+
 class Model : public core::Simulation {
  public:
   /// The scene's particles at their start; throws core::CaseError for what cannot be built. Collective, as are step,
   /// restart, checkpoint and resume.
   /// \param ranks  that share the box; null: it is all here
-  Model(const core::Scene& scene, core::Timers& timers, std::shared_ptr<const core::Ranks> ranks = nullptr);
+  Model(const core::Scene& scene, core::Timers& timers, std::shared_ptr<const core::Ranks> ranks = nullptr,
+        FluidBy fluid_by = FluidBy::model);
   Model(const Model&) = delete;
   Model& operator=(const Model&) = delete;
   ~Model() override = default;
@@ -79,6 +91,8 @@ class Model : public core::Simulation {
   /// species
   /// apart in a box. Collective. \param dv  by species, m/s
   void push(const std::vector<Vector>& dv);
+  /// Changes velocity and spin of each particle, between steps, as an impulse on it does. On one rank. \param by_id
+  void kick(const std::vector<Kick>& by_id);
   /// Ghosts as their owners are now: since the forces of the last step they have moved on by half a step. Collective.
   void refresh_ghosts();
   /// Takes a run up again, on any number of ranks; only the first rank's checkpoint is read.
@@ -128,7 +142,7 @@ class Model : public core::Simulation {
 
  private:
   void measure(const std::vector<Particle>& all);
-  void make_parts(const std::vector<Particle>& all);
+  void make_parts(const std::vector<Particle>& all, FluidBy fluid_by);
   void place(const std::vector<Particle>& all, const std::vector<std::int32_t>& work);
   [[nodiscard]] std::int32_t work_of_particle() const { return coupling_ ? Coupling::work_of_particle : 1; }
   void restore(const core::Checkpoint& checkpoint, bool same_run);
