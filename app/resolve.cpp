@@ -44,17 +44,20 @@ void remove_kept_boxes(const fs::path& directory) {
     if (entry.path().filename().string().starts_with("box-")) fs::remove(entry.path(), none);
 }
 
-void require_what_resolve_needs(const ResolveOptions& options, const core::Scene& scene) {
+/// Laws of contact that the case leaves open are chosen for free spheres alone.
+core::Scene read_boxes(const ResolveOptions& options) {
+  const core::Scene scene = read_case(options.case_path, options.overrides, {});
   if (scene.resolve.voidage.empty())
     throw core::CaseError(options.case_path.string() + ": resolve needs resolve.voidage, e.g. [0.5, 0.7]");
   if (scene.bed.volume_share.size() != scene.species.size())
     throw core::CaseError(options.case_path.string() + ": resolve needs bed.volume_share, one for each species");
+  return scene.resolve.motion == core::SphereMotion::free ? read_chosen_case(options.case_path, options.overrides, {})
+                                                          : scene;
 }
 
 /// Rows of the points, from the rate that the coarsest box of the first one reaches on one core.
 void estimate_resolve(const ResolveOptions& options) {
-  const core::Scene scene = read_case(options.case_path, options.overrides, {});
-  require_what_resolve_needs(options, scene);
+  const core::Scene scene = read_boxes(options);
   const core::Resolve& plan = scene.resolve;
   const ResolvePoint first{plan.voidage[0], plan.reynolds[0], 0, plan.grids - 1};
   const double rate = measured_rate(scene, first, sphere_packing(scene, first.voidage, scene.bed.seed));
@@ -65,7 +68,7 @@ void estimate_resolve(const ResolveOptions& options) {
       double seconds = 0, bytes = 0;
       for (int grid = 0; grid < plan.grids; ++grid) {
         const BoxNeed need = box_need(scene, {voidage, reynolds, 0, grid});
-        seconds += plan.packings * need.sites * need.steps / rate;
+        seconds += plan.packings * double(passed(scene).size()) * need.sites * need.steps / rate;
         bytes = std::max(bytes, need.bytes);
       }
       points.push_back({{"eps", voidage}, {"Re", reynolds}, {"time_s", seconds}, {"memory_bytes", bytes}});
@@ -90,17 +93,16 @@ class ResolveRun {
         ranks_(core::Ranks::of_program()),
         first_(core::is_first(ranks_.get())),
         rank_(ranks_ ? ranks_->rank() : 0),
-        scene_(read_case(options.case_path, options.overrides, {})) {
+        scene_(read_boxes(options)) {
     options_.quiet = options_.quiet || !first_;
-    require_what_resolve_needs(options_, scene_);
     directory_ = options.output.empty() ? default_run_directory(options.case_path, "resolve") : options.output;
     core::on_first(ranks_.get(), [&] { take_directory(); });
   }
 
   /// Boxes are independent: each rank runs its own, and all learn the results at the end.
   void run() {
-    if (first_ && !options_.json) core::print("{}\n", row_header(scene_.species.size()));
-    table_ = row_header(scene_.species.size()) + "\n";
+    if (first_ && !options_.json) core::print("{}\n", row_header(scene_));
+    table_ = row_header(scene_) + "\n";
     share_boxes();
     core::on_all(ranks_.get(), [&] {
       for (const Box& box : boxes_) {
@@ -132,7 +134,8 @@ class ResolveRun {
       throw core::FileError(
           fmt::format("{}: no boxes to resume from; leave out --resume to begin anew", directory_.string()));
     if (!options_.resume) remove_kept_boxes(directory_);
-    std::string kept = "box,cells,change,imbalance,steps,sites,seconds, then n and f of each species, check\n";
+    std::string kept = fmt::format("box,cells,change,imbalance,steps,sites,seconds, then n{} of each species, check\n",
+                                   free_ ? ", f, u, v and w" : " and f");
     if (options_.resume) read_finished(path, kept);
     core::write_atomically(path, kept, core::Flush::content);
   }
@@ -145,7 +148,7 @@ class ResolveRun {
     for (std::size_t n = 1; n < lines.size(); ++n) {
       const std::string row = core::without_check(lines[n]).value_or("");
       const std::size_t name = row.find(',');
-      if (name == std::string::npos || box_of_text(row.substr(name + 1), scene_.species.size()).net.empty()) {
+      if (name == std::string::npos || box_of_text(row.substr(name + 1), scene_).net.empty()) {
         ++lost;
         continue;
       }
@@ -169,12 +172,13 @@ class ResolveRun {
     for (const double voidage : plan.voidage)
       for (const double reynolds : plan.reynolds)
         for (int packing = 0; packing < plan.packings; ++packing)
-          for (int grid = 0; grid < plan.grids; ++grid) {
-            const ResolvePoint point{voidage, reynolds, packing, grid};
-            boxes_.push_back({point, box_name(scene_, point)});
-            std::string& text = finished_[boxes_.back().name];
-            text = core::said_by(ranks_.get(), 0, text);
-          }
+          for (int grid = 0; grid < plan.grids; ++grid)
+            for (const int past : passed(scene_)) {
+              const ResolvePoint point{voidage, reynolds, packing, grid, past};
+              boxes_.push_back({point, box_name(scene_, point)});
+              std::string& text = finished_[boxes_.back().name];
+              text = core::said_by(ranks_.get(), 0, text);
+            }
     if (!ranks_) return;
     std::vector<std::pair<double, Box*>> left;
     for (Box& box : boxes_)
@@ -210,14 +214,15 @@ class ResolveRun {
 
   /// Those whose boxes are finished, after those that are written.
   void write_rows() {
-    const std::size_t grids = std::size_t(scene_.resolve.grids), of_row = std::size_t(scene_.resolve.packings) * grids;
+    const std::size_t parts = passed(scene_).size(), of_packing = std::size_t(scene_.resolve.grids) * parts;
+    const std::size_t of_row = std::size_t(scene_.resolve.packings) * of_packing;
     for (; rows_ * of_row < boxes_.size(); ++rows_) {
       const Box* const begin = boxes_.data() + rows_ * of_row;
-      std::vector<std::vector<BoxDrag>> drags(of_row / grids);
+      RowBoxes drags(of_row / of_packing, {of_packing / parts, std::vector<BoxDrag>()});
       for (std::size_t n = 0; n < of_row; ++n) {
         const std::string& text = finished_[begin[n].name];
         if (text.empty()) return;
-        drags[n / grids].push_back(box_of_text(text, scene_.species.size()));
+        drags[n / of_packing][n % of_packing / parts].push_back(box_of_text(text, scene_));
       }
       const std::string row = row_text(scene_, begin->point.voidage, begin->point.reynolds, drags);
       table_ += row + "\n";
@@ -232,7 +237,9 @@ class ResolveRun {
     const auto now = std::chrono::steady_clock::now();
     if (!options_.quiet && now - said_ > std::chrono::seconds(5)) {
       said_ = now;
-      core::print(stderr, "{}: {:.0f} steps, drag changes by {:.2g}\n", place_of(point), steps, change);
+      core::print(stderr, "{}: {:.0f} steps{}\n", place_of(point), steps,
+                  free_ ? fmt::format(" of {}", plan_of(scene_, point).steps)
+                        : fmt::format(", drag changes by {:.2g}", change));
     }
     return !interrupt_.wanted();
   }
@@ -241,18 +248,17 @@ class ResolveRun {
     if (options_.quiet) return;
     ++done_;
     seconds_ += box.seconds;
-    const double all = double(scene_.resolve.voidage.size() * scene_.resolve.reynolds.size()) *
-                       scene_.resolve.packings * scene_.resolve.grids;
-    core::print(stderr, "{}: {:.0f} steps, {:.1f} million sites a second; {:.0f} boxes in {}, {:.0f} in all\n",
+    core::print(stderr, "{}: {:.0f} steps, {:.1f} million sites a second; {:.0f} boxes in {}, {} in all\n",
                 place_of(point), box.steps, box.sites * box.steps / box.seconds / 1e6, done_,
-                core::duration_text(seconds_), all);
+                core::duration_text(seconds_), boxes_.size());
     if (box.change > 1e-4)
       core::print(stderr, "warning: the drag of this box still changes by {:.2g}: its flow is unsteady\n", box.change);
   }
 
   [[nodiscard]] std::string place_of(const ResolvePoint& point) const {
     return fmt::format("eps {:g}, Re {:g}, packing {} of {}, {:.3g} cells per diameter", point.voidage, point.reynolds,
-                       point.packing + 1, scene_.resolve.packings, cells_of(scene_.resolve, point.grid));
+                       point.packing + 1, scene_.resolve.packings, cells_of(scene_.resolve, point.grid)) +
+           (point.past < 0 ? "" : fmt::format(", past '{}'", scene_.species[std::size_t(point.past)].name));
   }
 
   core::Interrupt interrupt_;
@@ -261,6 +267,7 @@ class ResolveRun {
   bool first_;
   int rank_;
   core::Scene scene_;
+  bool free_ = scene_.resolve.motion == core::SphereMotion::free;
   fs::path directory_;
   std::optional<core::OutputDirectory> lock_;
   std::vector<Box> boxes_;

@@ -13,7 +13,7 @@
 #include "dem/rules.hpp"
 #include "multiscale/calibrate/plan.hpp"
 #include "multiscale/particle_requirements.hpp"
-#include "multiscale/resolve/box_drag.hpp"
+#include "multiscale/resolve/rules.hpp"
 #include "multiscale/roles.hpp"
 #include "relevance/drag_file.hpp"
 #include "relevance/drag_law.hpp"

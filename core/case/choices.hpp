@@ -111,6 +111,10 @@ constexpr std::array<std::string_view, 4> names(BoxRegime) { return {"auto", "dr
 enum class Precision { one, two };
 constexpr std::array<std::string_view, 2> names(Precision) { return {"single", "double"}; }
 
+/// Of the spheres of a resolved flow: all at rest, one species past the others, or under their own forces.
+enum class SphereMotion { held, moving, free };
+constexpr std::array<std::string_view, 3> names(SphereMotion) { return {"held", "moving", "free"}; }
+
 /// A choice as a case file writes it.
 template <class Choice>
 requires std::is_enum_v<Choice>

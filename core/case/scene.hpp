@@ -256,13 +256,15 @@ struct Calibrate {
   double softness = 0.03;                                      ///< t_c over the time between collisions
 };
 
-/// Boxes of fixed spheres whose drag polybed resolve finds; the species and their shares are those of the bed.
+/// Boxes of spheres whose drag polybed resolve finds; the species and their shares are those of the bed.
 struct Resolve {
+  SphereMotion motion = SphereMotion::held;
   std::vector<double> voidage, reynolds{0};  ///< of the Sauter diameter and the superficial velocity
   int cells_per_diameter = 16;               ///< of the smallest spheres, on the finest grid
   int grids = 2;                             ///< each coarser by 1.5
   int packings = 5, spheres = 50;            ///< per row; in a box
   Precision precision = Precision::one;
+  std::optional<double> until;    ///< s, simulated of a box of free spheres
   double checkpoint_every = 600;  ///< s on the clock, between checkpoints of a box
 };
 

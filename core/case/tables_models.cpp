@@ -216,6 +216,9 @@ Table resolve_table() {
       "resolve", &Scene::resolve,
       {
           key(&Resolve::voidage, "voidage", range(0.3, 0.99), help("of the boxes of polybed resolve, one or more")),
+          key(&Resolve::motion, "motion",
+              help("of the spheres: held; moving, each species past all others in Stokes flow, for the forces by "
+                   "relative motion; or free, under drag, weight and contacts")),
           key(&Resolve::reynolds, "reynolds", range(0, 300),
               help("of the Sauter diameter and the superficial velocity, one or more; 0: Stokes flow")),
           key(&Resolve::cells_per_diameter, "cells_per_diameter", range(6, 200),
@@ -226,6 +229,9 @@ Table resolve_table() {
           key(&Resolve::packings, "packings", range(1, 1000), help("random boxes per row")),
           key(&Resolve::spheres, "spheres", range(1, 1e5), help("in a box, all sizes together")),
           key(&Resolve::precision, "precision", help("of the numbers of the flow: single takes half the memory")),
+          key(&Resolve::until, "until", dimension::time, above(0, 1e6),
+              help("simulated time of boxes of free spheres, of which the first third is dropped; default: in which "
+                   "the fastest species, alone, falls through its box ten times")),
           key(&Resolve::checkpoint_every, "checkpoint_every", dimension::time, above(0, 1e9),
               help("on the clock, between checkpoints of a box that is not steady yet")),
       });

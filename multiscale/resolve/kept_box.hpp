@@ -1,10 +1,12 @@
-// A box of resolved flow that is not steady yet, kept in a file so that a run goes on from it.
+// A box of resolved flow that is not finished yet, kept in a file so that a run goes on from it.
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 
-#include "multiscale/resolve/lattice/steady.hpp"
+#include "core/output/checkpoint.hpp"
+#include "multiscale/resolve/lattice/flow.hpp"
 
 namespace polybed::multiscale {
 
@@ -13,19 +15,16 @@ struct KeptBox {
   std::string name;  ///< box_name: the file of another box is left alone
   double every = 0;  ///< s on the clock between two writings
 
-  /// How far the flow in the file has come.
-  struct Stand {
-    lattice::SteadyProgress progress;
-    double seconds = 0;  ///< that it took
-  };
-
-  /// Writes the flow, to the bit. Throws core::FileError.
+  /// Writes the flow, to the bit, and what else belongs to the state. Throws core::FileError.
   template <class Real>
-  void write(const lattice::Flow<Real>& flow, const Stand& stand) const;
+  void write(const lattice::Flow<Real>& flow, core::Checkpoint state) const;
 
-  /// Restores what was written; false if there is no file of this box. Throws core::FileError for a damaged one.
+  /// What was written but for the flow; nothing if there is no file of this box. Throws core::FileError for a damaged
+  /// one.
+  [[nodiscard]] std::optional<core::Checkpoint> read() const;
+  /// Restores the flow from the file that the state was read from.
   template <class Real>
-  bool restore(lattice::Flow<Real>& flow, Stand& stand) const;
+  void restore(lattice::Flow<Real>& flow, core::Checkpoint state) const;
 
   /// Removes the file and the one before it.
   void remove() const;

@@ -1,6 +1,7 @@
 #include "multiscale/resolve/packing.hpp"
 
 #include <cmath>
+#include <utility>
 
 #include "closures/sphere.hpp"
 #include "dem/packing.hpp"
@@ -58,6 +59,7 @@ SpherePacking sphere_packing(const core::Scene& scene, double voidage, std::uint
     packing.centre.push_back(p.place.x);
     packing.species.push_back(std::size_t(p.species));
   }
+  packing.scene = std::move(box);
   return packing;
 }
 

@@ -1,4 +1,4 @@
-// Random boxes of fixed spheres for resolved flow.
+// Random boxes of spheres for resolved flow.
 #pragma once
 
 #include <array>
@@ -14,6 +14,7 @@ struct SpherePacking {
   double length = 0;  ///< of an edge, m
   std::vector<std::array<double, 3>> centre;
   std::vector<std::size_t> species;
+  core::Scene scene;  ///< from which the particle model starts at these places
 };
 
 /// Numbers of spheres of each species for the shares of the bed, about resolve.spheres in all; a species may get none.

@@ -8,9 +8,11 @@
 #include <optional>
 #include <string_view>
 
+#include "closures/mixture.hpp"
 #include "core/case/file.hpp"
 #include "core/error.hpp"
 #include "core/output/rows.hpp"
+#include "relevance/fluid_properties.hpp"
 
 namespace polybed::multiscale {
 
@@ -18,62 +20,130 @@ namespace {
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
+using core::SphereMotion;
+
 std::string cell(double value) { return std::isnan(value) ? "" : fmt::format("{:.6g}", value); }
+
+/// What a box says of each species.
+std::vector<std::vector<double> BoxDrag::*> columns_of(SphereMotion motion) {
+  if (motion != SphereMotion::free) return {&BoxDrag::net, &BoxDrag::pure};
+  return {&BoxDrag::net, &BoxDrag::pure, &BoxDrag::slip, &BoxDrag::along, &BoxDrag::across};
+}
+
+/// Sum over the species that are passed.
+RowValue value_of(const RowBoxes& boxes, std::vector<double> BoxDrag::*column, std::size_t species) {
+  return row_value(boxes, [&](const std::vector<BoxDrag>& parts) {
+    double sum = 0;
+    for (const BoxDrag& part : parts) sum += (part.*column)[species];
+    return sum;
+  });
+}
+
+/// Of the Sauter diameter and the mean superficial slip of the solids.
+double reynolds_of_slip(const core::Scene& scene, const std::vector<double>& share, const RowBoxes& boxes) {
+  const relevance::FluidConstants fluid = relevance::fluid_constants(scene.fluid);
+  double slip = 0;
+  std::vector<double> diameter;
+  for (std::size_t j = 0; j < share.size(); ++j) {
+    slip += share[j] * value_of(boxes, &BoxDrag::slip, j).mean;
+    diameter.push_back(scene.species[j].diameter);
+  }
+  return fluid.density * slip * closures::sauter_diameter(share, diameter) / fluid.viscosity;
+}
+
+/// Of a cell and the fastest species: how well the flow round it is resolved.
+double reynolds_of_cell(const core::Scene& scene, double voidage, const RowBoxes& boxes) {
+  const relevance::FluidConstants fluid = relevance::fluid_constants(scene.fluid);
+  double slip = 0;
+  for (std::size_t j = 0; j < scene.species.size(); ++j) slip = std::max(slip, value_of(boxes, &BoxDrag::slip, j).mean);
+  return fluid.density * slip / voidage * least_diameter(scene) / boxes[0][0][0].cells / fluid.viscosity;
+}
+
+/// What the motion of free spheres depends on beside what that of the flow does: the case without the boxes that it
+/// asks for.
+std::string free_text(core::Scene scene) {
+  const std::optional<double> until = scene.resolve.until;
+  scene.resolve = {};
+  scene.resolve.until = until;
+  return core::resolved_case(scene);
+}
 
 }  // namespace
 
-std::vector<RowValue> row_values(const std::vector<std::vector<BoxDrag>>& boxes) {
+RowValue row_value(const RowBoxes& boxes, const std::function<double(const std::vector<BoxDrag>&)>& value) {
   const auto count = double(boxes.size());
-  std::vector<RowValue> row(boxes[0][0].net.size());
-  for (std::size_t j = 0; j < row.size(); ++j) {
-    double squares = 0, coarser = 0;
-    for (const std::vector<BoxDrag>& grids : boxes) {
-      row[j].net += grids[0].net[j] / count;
-      row[j].pure += grids[0].pure[j] / count;
-      if (grids.size() > 1) coarser += grids[1].net[j] / count;
-    }
-    for (const std::vector<BoxDrag>& grids : boxes) squares += std::pow(grids[0].net[j] - row[j].net, 2);
-    row[j].net_error = boxes.size() > 1 ? std::sqrt(squares / (count * (count - 1))) : unknown;
-    row[j].net_grid = boxes[0].size() > 1 ? row[j].net - coarser : unknown;
+  RowValue row;
+  double squares = 0, coarser = 0;
+  for (const auto& grids : boxes) {
+    row.mean += value(grids[0]) / count;
+    if (grids.size() > 1) coarser += value(grids[1]) / count;
   }
+  for (const auto& grids : boxes) squares += std::pow(value(grids[0]) - row.mean, 2);
+  row.error = boxes.size() > 1 ? std::sqrt(squares / (count * (count - 1))) : unknown;
+  row.grid = boxes[0].size() > 1 ? row.mean - coarser : unknown;
   return row;
 }
 
-std::string row_header(std::size_t species) {
+std::string row_header(const core::Scene& scene) {
+  const std::size_t species = scene.species.size();
+  const SphereMotion motion = scene.resolve.motion;
+  const bool free = motion == SphereMotion::free;
   std::string text = "eps,Re";
   for (std::size_t j = 1; j <= species; ++j) text += fmt::format(",x{0},D{0}", j);
-  for (std::size_t j = 1; j <= species; ++j) text += fmt::format(",n_{0},n_{0}_se,f_{0}", j);
+  for (std::size_t j = 1; j <= species; ++j)
+    text += free ? fmt::format(",u_{0},u_{0}_se,f_{0},v_{0},w_{0}", j) : fmt::format(",n_{0},n_{0}_se,f_{0}", j);
+  if (motion == SphereMotion::moving)
+    for (std::size_t j = 1; j <= species; ++j)
+      for (std::size_t k = 1; k <= species; ++k) text += fmt::format(",f_{0}_{1},f_{0}_{1}_se", j, k);
   text += ",packings,resolution,spheres,imbalance";
-  for (std::size_t j = 1; j <= species; ++j) text += fmt::format(",n_{}_grid", j);
+  if (free) text += ",cell_Re";
+  for (std::size_t j = 1; j <= species; ++j) text += fmt::format(",{}_{}_grid", free ? "u" : "n", j);
   return text;
 }
 
-std::string row_text(const core::Scene& scene, double voidage, double reynolds,
-                     const std::vector<std::vector<BoxDrag>>& boxes) {
-  const std::vector<RowValue> values = row_values(boxes);
+std::string row_text(const core::Scene& scene, double voidage, double reynolds, const RowBoxes& boxes) {
   const std::vector<double> share = shares_of(scene, sphere_numbers(scene));
-  std::string text = fmt::format("{:g},{:g}", voidage, reynolds);
-  for (std::size_t j = 0; j < values.size(); ++j)
+  const std::size_t species = share.size();
+  const bool free = scene.resolve.motion == SphereMotion::free;
+  const auto value = [&](std::vector<double> BoxDrag::*column, std::size_t j) { return value_of(boxes, column, j); };
+  const auto main = free ? &BoxDrag::slip : &BoxDrag::net;
+  std::string text = fmt::format("{:g},{:.6g}", voidage, free ? reynolds_of_slip(scene, share, boxes) : reynolds);
+  for (std::size_t j = 0; j < species; ++j)
     text += fmt::format(",{:.8f},{:g}", share[j], scene.species[j].diameter);  // shares sum to 1 within 1e-6
+  for (std::size_t j = 0; j < species; ++j) {
+    const RowValue v = value(main, j);
+    text += fmt::format(",{},{},{}", cell(v.mean), cell(v.error), cell(value(&BoxDrag::pure, j).mean));
+    if (free)
+      text += fmt::format(",{},{}", cell(value(&BoxDrag::along, j).mean), cell(value(&BoxDrag::across, j).mean));
+  }
+  if (scene.resolve.motion == SphereMotion::moving)
+    for (std::size_t j = 0; j < species; ++j)
+      for (std::size_t k = 0; k < species; ++k) {
+        const RowValue v = row_value(boxes, [&](const std::vector<BoxDrag>& parts) { return parts[k].pure[j]; });
+        text += fmt::format(",{},{}", cell(v.mean), cell(v.error));
+      }
   double imbalance = 0;
-  for (const std::vector<BoxDrag>& grids : boxes)
-    for (const BoxDrag& box : grids) imbalance = std::max(imbalance, box.imbalance);
-  for (const RowValue& v : values) text += fmt::format(",{},{},{}", cell(v.net), cell(v.net_error), cell(v.pure));
+  for (const auto& grids : boxes)
+    for (const auto& parts : grids)
+      for (const BoxDrag& box : parts) imbalance = std::max(imbalance, box.imbalance);
   std::int64_t spheres = 0;
   for (const std::int64_t n : sphere_numbers(scene)) spheres += n;
-  text += fmt::format(",{},{:.4g},{},{:.2g}", boxes.size(), boxes[0][0].cells, spheres, imbalance);
-  for (const RowValue& v : values) text += "," + cell(v.net_grid);
+  text += fmt::format(",{},{:.4g},{},{:.2g}", boxes.size(), boxes[0][0][0].cells, spheres, imbalance);
+  if (free) text += fmt::format(",{:.3g}", reynolds_of_cell(scene, voidage, boxes));
+  for (std::size_t j = 0; j < species; ++j) text += "," + cell(value(main, j).grid);
   return text;
 }
 
 std::string box_text(const BoxDrag& box) {
   std::string text =
       fmt::format("{},{},{},{},{},{}", box.cells, box.change, box.imbalance, box.steps, box.sites, box.seconds);
-  for (std::size_t j = 0; j < box.net.size(); ++j) text += fmt::format(",{},{}", box.net[j], box.pure[j]);
+  for (std::size_t j = 0; j < box.net.size(); ++j)
+    for (const auto column : columns_of(box.slip.empty() ? SphereMotion::held : SphereMotion::free))
+      text += fmt::format(",{}", (box.*column)[j]);
   return text;
 }
 
-BoxDrag box_of_text(const std::string& text, std::size_t species) {
+BoxDrag box_of_text(const std::string& text, const core::Scene& scene) {
   std::vector<double> numbers;
   for (const std::string_view cell : core::cells_of_row(text)) {
     const std::optional<double> number = core::finite_number(cell);
@@ -81,12 +151,17 @@ BoxDrag box_of_text(const std::string& text, std::size_t species) {
     numbers.push_back(*number);
   }
   constexpr std::size_t before = 6;
-  if (numbers.size() != before + 2 * species) return {};
-  BoxDrag box{{}, {}, numbers[0], numbers[1], numbers[2], numbers[3], numbers[4], numbers[5]};
-  for (std::size_t j = 0; j < species; ++j) {
-    box.net.push_back(numbers[before + 2 * j]);
-    box.pure.push_back(numbers[before + 2 * j + 1]);
-  }
+  const auto columns = columns_of(scene.resolve.motion);
+  if (numbers.size() != before + columns.size() * scene.species.size()) return {};
+  BoxDrag box;
+  box.cells = numbers[0];
+  box.change = numbers[1];
+  box.imbalance = numbers[2];
+  box.steps = numbers[3];
+  box.sites = numbers[4];
+  box.seconds = numbers[5];
+  for (std::size_t n = before; n < numbers.size(); ++n)
+    (box.*columns[(n - before) % columns.size()]).push_back(numbers[n]);
   return box;
 }
 
@@ -96,6 +171,8 @@ std::string box_name(const core::Scene& scene, const ResolvePoint& point) {
                                  int(scene.resolve.precision));
   for (std::size_t j = 0; j < scene.species.size(); ++j)
     text += fmt::format(",{},{}", scene.bed.volume_share[j], scene.species[j].diameter);
+  if (point.past >= 0) text += fmt::format(",past {}", point.past);
+  if (scene.resolve.motion == SphereMotion::free) text += free_text(scene);
   return core::text_hash(text);
 }
 

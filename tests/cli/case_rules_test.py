@@ -43,7 +43,7 @@ def on(role, law=None):
 
 AIR, TILTED = ["fluid.name=air", "fluid.equation_of_state=ideal_gas"], "column.gravity_direction=[1,-1]"
 AT_TOP = ('inlet.at = "top"', "inlet.at=top")
-JOINED, SHEARED = "column.ends=periodic", "dem.shear_rate=1"
+JOINED, SHEARED, FREE = "column.ends=periodic", "dem.shear_rate=1", ["resolve.motion=free", "resolve.voidage=[0.6]"]
 FLOW = ["inlet.superficial_velocity=!", "inlet.flow_rate=1e-5"]
 SIZES = 'species=[{name="fine", density=1395, distribution="lognormal", median=1e-8, deviation=1}]'
 
@@ -155,6 +155,14 @@ KEYS = {
     "resolve.cells_per_diameter = {} or more, or fewer resolve.grids": ["resolve.voidage=[0.6]", "resolve.reynolds=[300]"],
     "resolve.cells_per_diameter = {}: the pores are {} cells wide on the coarsest grid at a voidage of {}, they need {}; take {} or more, "
     "or fewer resolve.grids": ["resolve.voidage=[0.35]", "resolve.cells_per_diameter=6"],
+    "resolve.spheres = {}: at a voidage of {} the box is {} of the largest diameters wide; free spheres need {}, so that none touches another "
+    "and its image: take {} or more": [*FREE, "resolve.spheres=2"],
+    'resolve.motion = "{}": {}; leave out resolve.reynolds': ["resolve.motion=moving", "resolve.reynolds=[5]"],
+    'resolve.motion = "free" needs {}': ["resolve.motion=free", "column.gravity=0"],
+    "resolve.motion = \"free\": species '{}' is {} times as dense as the fluid; drag acts on free spheres one step late, which is stable "
+    "from {} times on": [*FREE, "species.1.density=1050"],
+    "resolve.cells_per_diameter = {}: free spheres at a voidage of {} would fall at a viscosity of {} in cells and steps, stable from {}; take "
+    "{} or more, or fewer resolve.grids": [*FREE, "species.1.density=9000"],
     'calibrate.regime = "{}" needs a fluid: fluid.name is "none"': [DRY, "calibrate.regime=wet"],
 }
 

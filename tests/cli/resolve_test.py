@@ -158,6 +158,45 @@ class Resolve(Scratch):
         part = lambda found: found["time_s"] * found["sites_per_second"]
         self.assertAlmostEqual(part(more) / part(told), 2, delta=1e-9)
 
+    def rows(self, *words):
+        return [{name: float(cell) for name, cell in row.items() if cell} for row in csv.DictReader(self.resolve(*words).stdout.splitlines())]
+
+    def test_relative_motion_adds_up_to_the_held_drag(self):
+        words = ["--set", "resolve.reynolds=[0]", "--set", "resolve.grids=1"]
+        [held] = self.rows(*words)
+        self.out = self.folder / "moving"
+        words += ["--set", "resolve.motion=moving"]
+        [row] = self.rows(*words)
+        for j in (1, 2):
+            # Each flow is steady to 1e-4; f_j is the sum of what is printed in six digits.
+            self.assertAlmostEqual(row[f"f_{j}"], held[f"f_{j}"], delta=1e-3 * held[f"f_{j}"])
+            self.assertAlmostEqual(row[f"n_{j}"], held[f"n_{j}"], delta=1e-3 * held[f"n_{j}"])
+            self.assertAlmostEqual(row[f"f_{j}_1"] + row[f"f_{j}_2"], row[f"f_{j}"], delta=1e-4 * row[f"f_{j}"])
+        self.ends(DONE, "drag", "--law", "cello", "--csv", self.out / "rows.csv")
+        boxes = (self.out / "boxes.csv").read_text().splitlines()
+        self.assertEqual(len(boxes), 5, "a header, and two packings past two species")
+        (self.out / "boxes.csv").write_text("\n".join(boxes[:-1]) + "\n")  # the last one is run again
+        self.assertEqual(self.rows(*words, "--resume"), [row])
+        self.assertEqual(self.on_ranks(2, "-o", self.folder / "on-2", *words), (self.out / "rows.csv").read_text())
+
+    def test_free_spheres_go_on_with_the_same_bits_on_any_ranks(self):
+        words = [word for key in ("motion=free", "grids=1", "reynolds=[0]", "voidage=[0.8]", "spheres=30", "cells_per_diameter=6", 'until="0.2 s"')
+                 for word in ("--set", f"resolve.{key}")] + ["--set", "fluid.viscosity=0.01"]
+        text = self.resolve(*words).stdout
+        [row] = csv.DictReader(text.splitlines())
+        self.assertGreater(float(row["Re"]), 0)
+        for j in (1, 2):
+            self.assertGreater(float(row[f"u_{j}"]), 0)
+            self.assertGreater(float(row[f"v_{j}"]), 0)
+        self.assertLess(float(row["imbalance"]), 1e-4)  # single precision
+        self.out = self.folder / "stopped"
+        running = self.start("resolve", self.case, "-o", self.out, "--quiet", *words, "--set", 'resolve.checkpoint_every="1 ms"')
+        wait_until(running, lambda: list(self.out.glob("box-*.h5")))
+        running.send_signal(signal.SIGTERM)
+        running.communicate(timeout=LONGEST)
+        self.assertEqual(running.returncode, STOPPED)
+        self.assertEqual(self.on_ranks(2, "-o", self.out, "--resume", *words), text)
+
     def test_json_names_the_table(self):
         answer = strict_json(self.resolve("--json", "--set", "resolve.reynolds=[0]", "--set", "resolve.packings=1").stdout)
         self.assertEqual(answer["table"], (self.out / "rows.csv").read_text())

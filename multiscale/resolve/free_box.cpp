@@ -1,0 +1,308 @@
+#include "multiscale/resolve/free_box.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include "closures/contact_pair.hpp"
+#include "closures/sphere.hpp"
+#include "core/error.hpp"
+#include "dem/step_limits.hpp"
+#include "relevance/fluid_properties.hpp"
+
+namespace polybed::multiscale {
+
+namespace {
+
+using std::numbers::pi;
+
+/// Steps of the fluid between two samples of the velocities: they change in many more.
+constexpr std::int64_t sampled = 20;
+
+/// The spheres of a packing with their contacts and films, whose drag is resolved.
+core::Scene suspension(const core::Scene& scene, const SpherePacking& packing, double greatest_speed) {
+  core::Scene box = packing.scene;
+  box.fluid = scene.fluid;
+  box.material = scene.material;
+  box.effects = scene.effects;
+  box.contact_pairs = scene.contact_pairs;
+  box.dem = scene.dem;
+  box.dem.opening.reset();
+  box.dem.start_speed = 0;
+  box.dem.ledger = false;
+  box.dem.greatest_speed = greatest_speed;
+  return box;
+}
+
+/// Steps of the spheres in a time, each at most as long as contacts allow.
+int substeps_in(double time, const core::Scene& box) {
+  const dem::Materials materials(box);
+  const dem::PairLaws laws = dem::make_pair_laws(box, materials);
+  return int(std::ceil(time / dem::step_limits(box, materials, laws, *box.dem.greatest_speed).dt));
+}
+
+core::Scene with_step(core::Scene box, double step) {
+  box.dem.fixed_step = step;
+  return box;
+}
+
+std::vector<lattice::Sphere> spheres_at(const dem::Particles& particles, double scale) {
+  std::vector<lattice::Sphere> spheres(particles.owned);
+  for (std::size_t i = 0; i < particles.owned; ++i) {
+    lattice::Sphere& sphere = spheres[std::size_t(particles.id[i])];
+    for (std::size_t k = 0; k < 3; ++k) sphere.centre[k] = particles.place[i].x[k] * scale;
+    sphere.radius = particles.place[i].radius * scale;
+  }
+  return spheres;
+}
+
+lattice::FlowSetup setup_of(const BoxPlan& plan) {
+  return {{plan.edge, plan.edge, plan.edge}, plan.units.viscosity, true, lattice::Wall::interpolated};
+}
+
+/// Of the fastest sphere, with room for what contacts do.
+double greatest_speed(const BoxPlan& plan) { return 4 * plan.units.speed / plan.scale / plan.step; }
+
+}  // namespace
+
+template <class Real>
+FreeBox<Real>::FreeBox(const core::Scene& scene, const ResolvePoint& point, const SpherePacking& packing)
+    : voidage_(point.voidage),
+      plan_(plan_of(scene, point)),
+      count_(scene.species.size(), 0),
+      substeps_(substeps_in(2 * plan_.step, suspension(scene, packing, greatest_speed(plan_)))),
+      spheres_(with_step(suspension(scene, packing, greatest_speed(plan_)), 2 * plan_.step / substeps_), timers_,
+               nullptr, dem::FluidBy::caller),
+      flow_(setup_of(plan_), lattice::Spheres(spheres_at(spheres_.particles(), plan_.scale), setup_of(plan_).box)),
+      sums_(scene.species.size()) {
+  const double density = relevance::fluid_constants(scene.fluid).density;
+  for (const core::Species& s : scene.species) {
+    Body body;
+    body.radius = 0.5 * s.diameter * plan_.scale;
+    body.volume = closures::sphere_volume(body.radius);
+    body.mass = s.density / density * body.volume;
+    body.inertia = closures::moment_of_inertia(body.mass, body.radius);
+    body.weight = (body.mass - body.volume) * scene.column.gravity * plan_.step * plan_.step * plan_.scale;
+    bodies_.push_back(body);
+  }
+  for (const std::int32_t species : spheres_.particles().species) ++count_[std::size_t(species)];
+  let_walls_follow();
+}
+
+template <class Real>
+void FreeBox<Real>::step() {
+  const double force = push();
+  flow_.advance({force, 0, 0});
+  kick_spheres();
+  move_spheres();
+  let_walls_follow();
+}
+
+/// On a site of the fluid: less the gradient of the mean pressure.
+template <class Real>
+double FreeBox<Real>::push() const {
+  double weight = 0, volume = 0;
+  for (std::size_t j = 0; j < bodies_.size(); ++j) {
+    weight += count_[j] * bodies_[j].weight;
+    volume += count_[j] * bodies_[j].volume;
+  }
+  return weight / (flow_.fluid_sites() + volume);
+}
+
+/// By the fluid, their weight and the mean pressure.
+template <class Real>
+void FreeBox<Real>::kick_spheres() {
+  const double speed = 1 / plan_.scale / plan_.step, spin = 1 / plan_.step;  // units of the lattice, m/s and 1/s
+  const dem::Particles& particles = spheres_.particles();
+  const std::vector<lattice::Impulse> impulse = flow_.impulses();
+  std::vector<dem::Kick> kick(particles.owned);
+  const double force = flow_.last_force()[0];
+  for (std::size_t i = 0; i < particles.owned; ++i) {
+    const auto id = std::size_t(particles.id[i]);
+    const Body& b = body(i);
+    for (std::size_t k = 0; k < 3; ++k) {
+      kick[id].dv[k] = impulse[id].force[k] / b.mass * speed;
+      kick[id].dw[k] = impulse[id].torque[k] / b.inertia * spin;
+    }
+    kick[id].dv[0] += 2 * (b.volume * force - b.weight) / b.mass * speed;
+    sums_.of[std::size_t(particles.species[i])].force += impulse[id].force[0];
+  }
+  sums_.steps += 2;
+  sums_.push += 2 * force;
+  spheres_.kick(kick);
+}
+
+template <class Real>
+void FreeBox<Real>::move_spheres() {
+  for (int n = 0; n < substeps_; ++n) spheres_.step(1e300);
+}
+
+template <class Real>
+void FreeBox<Real>::let_walls_follow() {
+  const dem::Particles& particles = spheres_.particles();
+  const std::vector<lattice::Sphere> spheres = spheres_at(particles, plan_.scale);
+  std::vector<lattice::Motion> motion(spheres.size());
+  for (std::size_t i = 0; i < particles.owned; ++i) {
+    const auto id = std::size_t(particles.id[i]);
+    motion[id].centre = spheres[id].centre;
+    for (std::size_t k = 0; k < 3; ++k) {
+      motion[id].velocity[k] = particles.motion[i].v[k] * plan_.scale * plan_.step;
+      motion[id].spin[k] = particles.motion[i].w[k] * plan_.step;
+    }
+  }
+  flow_.forget_forces();
+  flow_.move_to(lattice::Spheres(spheres, setup_of(plan_).box), motion);
+}
+
+template <class Real>
+void FreeBox<Real>::begin_window() {
+  flow_.level_density();
+  spheres_.restart();
+}
+
+template <class Real>
+auto FreeBox<Real>::momentum() const -> Momentum {
+  Momentum momentum;
+  const double sites = std::pow(plan_.edge, 3), speed = plan_.scale * plan_.step;
+  momentum.all = flow_.velocity()[0] * sites - 0.5 * flow_.last_force()[0] * flow_.fluid_sites();
+  const dem::Particles& particles = spheres_.particles();
+  for (std::size_t i = 0; i < particles.owned; ++i) {
+    const double own = body(i).mass * particles.motion[i].v[0] * speed;
+    momentum.all += own;
+    momentum.of_spheres += std::abs(own);
+  }
+  for (const lattice::Impulse& impulse : flow_.impulses()) momentum.all += impulse.force[0];
+  return momentum;
+}
+
+template <class Real>
+void FreeBox<Real>::sample() {
+  const double speed = 1 / plan_.scale / plan_.step;
+  const double fluid = flow_.velocity()[0] * std::pow(plan_.edge, 3) / flow_.fluid_sites() * speed;
+  const dem::Particles& particles = spheres_.particles();
+  std::vector<dem::Vector> mean(bodies_.size());
+  for (std::size_t i = 0; i < particles.owned; ++i) {
+    const auto j = std::size_t(particles.species[i]);
+    for (std::size_t k = 0; k < 3; ++k) mean[j][k] += particles.motion[i].v[k] / count_[j];
+  }
+  for (std::size_t j = 0; j < mean.size(); ++j) sums_.of[j].slip += voidage_ * (fluid - mean[j][0]);
+  for (std::size_t i = 0; i < particles.owned; ++i) {
+    const auto j = std::size_t(particles.species[i]);
+    const dem::Vector& v = particles.motion[i].v;
+    sums_.of[j].along += std::pow(v[0] - mean[j][0], 2) / count_[j];
+    sums_.of[j].across += 0.5 * (std::pow(v[1] - mean[j][1], 2) + std::pow(v[2] - mean[j][2], 2)) / count_[j];
+  }
+  ++sums_.samples;
+}
+
+template <class Real>
+BoxDrag FreeBox<Real>::means() const {
+  BoxDrag drag;
+  const double speed = plan_.scale * plan_.step, push = sums_.push / sums_.steps;
+  for (std::size_t j = 0; j < bodies_.size(); ++j) {
+    const OfSpecies& of = sums_.of[j];
+    const double slip = of.slip / sums_.samples;
+    const double stokes = 6 * pi * plan_.units.viscosity * bodies_[j].radius * slip * speed;
+    const double pure = of.force / sums_.steps / count_[j];
+    drag.pure.push_back(pure / stokes);
+    drag.net.push_back((pure + bodies_[j].volume * push) / stokes);
+    drag.slip.push_back(slip);
+    drag.along.push_back(std::sqrt(of.along / sums_.samples));
+    drag.across.push_back(std::sqrt(of.across / sums_.samples));
+  }
+  return drag;
+}
+
+template <class Real>
+core::Checkpoint FreeBox<Real>::state() const {
+  core::Checkpoint state = spheres_.checkpoint();
+  std::vector<double>& impulses = state.arrays["impulses"];
+  for (const lattice::Impulse& impulse : flow_.impulses()) {
+    impulses.insert(impulses.end(), impulse.force.begin(), impulse.force.end());
+    impulses.insert(impulses.end(), impulse.torque.begin(), impulse.torque.end());
+  }
+  std::vector<double>& sums = state.arrays["sums"];
+  sums = {sums_.samples, sums_.steps, sums_.push};
+  for (const OfSpecies& of : sums_.of) sums.insert(sums.end(), {of.slip, of.force, of.along, of.across});
+  return state;
+}
+
+/// The walls first: the flow that belongs to them follows, by KeptBox::restore().
+template <class Real>
+void FreeBox<Real>::restore(const core::Checkpoint& state) {
+  spheres_.resume(state);
+  let_walls_follow();
+  const std::vector<double>&given = state.array("impulses"), &sums = state.array("sums");
+  std::vector<lattice::Impulse> impulses(given.size() / 6);
+  for (std::size_t n = 0; n < given.size(); ++n)
+    (n % 6 < 3 ? impulses[n / 6].force[n % 3] : impulses[n / 6].torque[n % 3]) = given[n];
+  flow_.restore_impulses(impulses);
+  sums_.samples = sums.at(0);
+  sums_.steps = sums.at(1);
+  sums_.push = sums.at(2);
+  for (std::size_t j = 0; j < sums_.of.size(); ++j)
+    sums_.of[j] = {sums.at(3 + 4 * j), sums.at(4 + 4 * j), sums.at(5 + 4 * j), sums.at(6 + 4 * j)};
+}
+
+template class FreeBox<float>;
+template class FreeBox<double>;
+
+namespace {
+
+template <class Real>
+BoxDrag run(const core::Scene& scene, const ResolvePoint& point, const SpherePacking& packing,
+            const StillWanted& wanted, const KeptBox* kept) {
+  FreeBox<Real> box(scene, point, packing);
+  std::int64_t done = 0;
+  double before = 0;  // s on the clock, of the runs before
+  if (const auto state = kept != nullptr ? kept->read() : std::nullopt) {
+    box.restore(*state);
+    kept->restore(box.flow(), *state);
+    done = state->count("box_steps");
+    before = state->time("seconds");
+  }
+  const auto begin = std::chrono::steady_clock::now();
+  const auto seconds = [&] {
+    return before + std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  };
+  double last_kept = before;
+  const std::int64_t steps = box.plan().steps, window = 2 * std::llround(box.plan().window / 2);
+  for (std::int64_t next = done + window; done < steps; next += window) {
+    for (; done < std::min(next, steps); done += 2) {
+      if (done / 2 == steps / 6) box.forget();
+      box.step();
+      if (done % sampled == 0) box.sample();
+    }
+    box.begin_window();
+    const bool stopped = !wanted(double(done), 0);
+    if (kept != nullptr && (stopped || seconds() - last_kept > kept->every)) {
+      last_kept = seconds();
+      core::Checkpoint state = box.state();
+      state.integers["box_steps"] = done;
+      state.numbers["seconds"] = last_kept;
+      kept->write(box.flow(), std::move(state));
+    }
+    if (stopped) throw core::Stopped("stopped by the user");
+  }
+  if (kept != nullptr) kept->remove();
+  BoxDrag drag = box.means();
+  const auto momentum = box.momentum();
+  drag.imbalance = std::abs(momentum.all) / momentum.of_spheres;
+  drag.seconds = seconds();
+  drag.steps = double(steps);
+  drag.sites = std::pow(box.plan().edge, 3);
+  drag.cells = least_diameter(scene) * box.plan().scale;
+  return drag;
+}
+
+}  // namespace
+
+BoxDrag free_box(const core::Scene& scene, const ResolvePoint& point, const SpherePacking& packing,
+                 const StillWanted& wanted, const KeptBox* kept) {
+  return scene.resolve.precision == core::Precision::one ? run<float>(scene, point, packing, wanted, kept)
+                                                         : run<double>(scene, point, packing, wanted, kept);
+}
+
+}  // namespace polybed::multiscale

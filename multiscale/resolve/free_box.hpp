@@ -1,0 +1,77 @@
+// A box of spheres that move freely through resolved flow, under drag, weight, contacts and films. Weight acts along
+// -x; the mean pressure gradient that bears it acts on liquid and spheres alike, so that nothing acts on the whole box.
+#pragma once
+
+#include <vector>
+
+#include "core/timers.hpp"
+#include "dem/model.hpp"
+#include "multiscale/resolve/box_drag.hpp"
+#include "multiscale/resolve/lattice/flow.hpp"
+
+namespace polybed::multiscale {
+
+template <class Real>
+class FreeBox {
+ public:
+  FreeBox(const core::Scene& scene, const ResolvePoint& point, const SpherePacking& packing);
+
+  /// Two steps of the fluid, and what the spheres do meanwhile.
+  void step();
+  /// Walls are where the spheres are, and move as they do.
+  void let_walls_follow();
+  /// Between windows: lists of neighbours are made anew, as a box that is taken up again does, and mass is levelled.
+  void begin_window();
+  /// Counts the velocities of this moment.
+  void sample();
+  /// Means of all samples and of the forces since forget().
+  [[nodiscard]] BoxDrag means() const;
+  void forget() { sums_ = Sums(sums_.of.size()); }
+
+  /// Along x, of liquid and spheres, in units of the lattice; and the sum of its amounts over the spheres.
+  struct Momentum {
+    double all = 0, of_spheres = 0;
+  };
+  [[nodiscard]] Momentum momentum() const;
+  [[nodiscard]] core::Checkpoint state() const;
+  void restore(const core::Checkpoint& state);
+
+  [[nodiscard]] const BoxPlan& plan() const { return plan_; }
+  [[nodiscard]] lattice::Flow<Real>& flow() { return flow_; }
+  [[nodiscard]] dem::Model& spheres() { return spheres_; }
+
+ private:
+  /// Of a sphere of a species, in units of the lattice.
+  struct Body {
+    double radius = 0, volume = 0, mass = 0, inertia = 0, weight = 0;  ///< weight less buoyancy in the liquid at rest
+  };
+  struct OfSpecies {
+    double slip = 0, force = 0, along = 0, across = 0;
+  };
+  struct Sums {
+    double samples = 0, steps = 0, push = 0;
+    std::vector<OfSpecies> of;
+    explicit Sums(std::size_t species) : of(species) {}
+  };
+
+  [[nodiscard]] const Body& body(std::size_t i) const { return bodies_[std::size_t(spheres_.particles().species[i])]; }
+  [[nodiscard]] double push() const;
+  void kick_spheres();
+  void move_spheres();
+
+  double voidage_;
+  BoxPlan plan_;
+  std::vector<Body> bodies_;
+  std::vector<double> count_;  ///< of spheres of each species
+  core::Timers timers_;
+  int substeps_;  ///< of the spheres in two steps of the fluid
+  dem::Model spheres_;
+  lattice::Flow<Real> flow_;
+  Sums sums_;
+};
+
+/// Means over the last two thirds of the simulated time. Throws as box_drag().
+[[nodiscard]] BoxDrag free_box(const core::Scene& scene, const ResolvePoint& point, const SpherePacking& packing,
+                               const StillWanted& wanted, const KeptBox* kept);
+
+}  // namespace polybed::multiscale

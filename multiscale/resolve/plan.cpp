@@ -1,0 +1,140 @@
+#include "multiscale/resolve/plan.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+#include <vector>
+
+#include "closures/mixture.hpp"
+#include "closures/terminal_velocity.hpp"
+#include "multiscale/resolve/lattice/lattice.hpp"
+#include "multiscale/resolve/packing.hpp"
+#include "relevance/fluid_properties.hpp"
+
+namespace polybed::multiscale {
+
+namespace {
+
+/// Mean velocity in the pores, cells per step: a Mach number of 0.05, so that the fluid stays nearly incompressible
+/// where it is faster.
+constexpr double pore_speed = 0.03;
+/// Of a sphere that falls alone, likewise: a Mach number of 0.09, which hindered ones halve.
+constexpr double fall_speed = 0.05;
+/// Of Stokes flow: the drag does not depend on it, and the greater it is the sooner the flow is steady.
+constexpr double stokes_viscosity = 0.5, stokes_speed = 1e-3;
+/// Windows that most boxes took: 9 to 15, and 8 to 28 of flows with inertia, up to a Reynolds number of 40.
+constexpr double usual_stokes = 10, usual_inertia = 20;
+/// Most at a Reynolds number above 0.
+constexpr double most_viscosity = 1.0 / 6;
+/// Of its box, in which the fastest species falls alone while free spheres are simulated.
+constexpr double crossings = 10;
+/// Steps of free spheres between two moments at which mass is levelled and a run may stop.
+constexpr double free_window = 200;
+/// Fewer have no sample after the first third.
+constexpr std::int64_t least_steps = 100;
+
+double sauter(const core::Scene& scene, const std::vector<double>& share) {
+  std::vector<double> diameter;
+  for (const core::Species& s : scene.species) diameter.push_back(s.diameter);
+  return closures::sauter_diameter(share, diameter);
+}
+
+/// Of the fastest species alone.
+struct Fall {
+  double speed = 0, viscosity = 0;  ///< m/s; kinematic, m2/s
+};
+
+Fall fall_of(const core::Scene& scene) {
+  const relevance::FluidConstants fluid = relevance::fluid_constants(scene.fluid);
+  Fall fall{0, fluid.viscosity / fluid.density};
+  for (const core::Species& s : scene.species)
+    fall.speed = std::max(fall.speed, closures::settling_velocity(s.diameter, s.density - fluid.density, fluid.density,
+                                                                  fluid.viscosity, scene.column.gravity));
+  return fall;
+}
+
+}  // namespace
+
+std::vector<int> passed(const core::Scene& scene) {
+  if (scene.resolve.motion != core::SphereMotion::moving) return {-1};
+  std::vector<int> species(scene.species.size());
+  std::iota(species.begin(), species.end(), 0);
+  return species;
+}
+
+double cells_of(const core::Resolve& resolve, int grid) { return resolve.cells_per_diameter / std::pow(1.5, grid); }
+
+double least_diameter(const core::Scene& scene) {
+  double least = scene.species.front().diameter;
+  for (const core::Species& s : scene.species) least = std::min(least, s.diameter);
+  return least;
+}
+
+double pore_of(double voidage) { return 2.0 / 3 * voidage / (1 - voidage); }
+
+double sauter_cells(const core::Scene& scene, int grid) {
+  return cells_of(scene.resolve, grid) * sauter(scene, scene.bed.volume_share) / least_diameter(scene);
+}
+
+Units units_of(double voidage, double reynolds, double sauter_in_cells) {
+  if (reynolds == 0) return {stokes_viscosity, stokes_speed};
+  const double speed = pore_speed * voidage, viscosity = speed * sauter_in_cells / reynolds;
+  if (viscosity <= most_viscosity) return {viscosity, speed};
+  return {most_viscosity, most_viscosity * reynolds / sauter_in_cells};
+}
+
+Units units_of_fall(const core::Scene& scene, double cells) {
+  const Fall fall = fall_of(scene);
+  const double reynolds_of_cell = fall.speed * least_diameter(scene) / cells / fall.viscosity;
+  const double viscosity = std::min(fall_speed / reynolds_of_cell, most_viscosity);
+  return {viscosity, viscosity * reynolds_of_cell};
+}
+
+/// The sooner the narrower the pores are. Fitted above all that failed of 200 boxes of 12 spheres,
+/// docs/record/resolved-flow.md.
+double least_viscosity(double pore_cells) {
+  constexpr double of_wide = 0.004, wide = 6, power = 8;
+  return of_wide * std::max(1.0, std::pow(wide / pore_cells, power));
+}
+
+BoxPlan plan_of(const core::Scene& scene, const ResolvePoint& point) {
+  const double length = box_length(scene, point.voidage);
+  BoxPlan plan;
+  plan.edge = std::max(int(std::llround(length * cells_of(scene.resolve, point.grid) / least_diameter(scene))), 3);
+  plan.scale = plan.edge / length;
+  plan.sauter = sauter(scene, shares_of(scene, sphere_numbers(scene))) * plan.scale;
+  const bool free = scene.resolve.motion == core::SphereMotion::free;
+  plan.units = free ? units_of_fall(scene, least_diameter(scene) * plan.scale)
+                    : units_of(point.voidage, point.reynolds, plan.sauter);
+  const double pore = std::min(1.0, pore_of(point.voidage)) * plan.sauter;
+  // By friction a pore forgets its past, or by the fluid that passes two diameters, whichever is sooner.
+  plan.window = std::max(100.0, pore * pore / (3 * plan.units.viscosity));
+  if (point.reynolds > 0)
+    plan.window = std::max(100.0, std::min(plan.window, 2 * plan.sauter * point.voidage / plan.units.speed));
+  if (free) {
+    plan.window = free_window;
+    const Fall fall = fall_of(scene);
+    plan.step = plan.units.speed / plan.scale / fall.speed;
+    const double until = scene.resolve.until.value_or(crossings * length / fall.speed);
+    plan.steps = std::max<std::int64_t>(2 * std::llround(until / plan.step / 2), least_steps);
+  }
+  return plan;
+}
+
+BoxNeed box_need(const core::Scene& scene, const ResolvePoint& point) {
+  // Links of a lattice of 18 ways to a plane, mean over its directions: a quarter of the sum of their lengths.
+  constexpr double links_of_area = (6 + 12 * std::numbers::sqrt2) / 4;
+  constexpr double site_bytes = 4, link_bytes = 44;  // whose a site is; a link, and what it was found from
+  const BoxPlan box = plan_of(scene, point);
+  const double real = scene.resolve.precision == core::Precision::one ? sizeof(float) : sizeof(double);
+  BoxNeed need;
+  need.sites = std::pow(box.edge, 3);
+  const bool free = scene.resolve.motion == core::SphereMotion::free;
+  need.steps = free ? double(box.steps) : std::ceil((point.reynolds > 0 ? usual_inertia : usual_stokes) * box.window);
+  const double links = links_of_area * 6 * (1 - point.voidage) / box.sauter * need.sites;
+  need.bytes = std::pow(box.edge + 2, 3) * (lattice::directions * real + site_bytes) + links * link_bytes;
+  return need;
+}
+
+}  // namespace polybed::multiscale

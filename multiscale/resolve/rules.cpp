@@ -1,0 +1,179 @@
+#include "multiscale/resolve/rules.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "core/case/resolve.hpp"
+#include "core/error.hpp"
+#include "multiscale/resolve/packing.hpp"
+#include "multiscale/resolve/plan.hpp"
+#include "relevance/fluid_properties.hpp"
+
+namespace polybed::multiscale {
+
+namespace {
+
+using core::Broken;
+
+/// Cells that a pore needs at least: chosen, not measured.
+constexpr double least_pore = 3;
+/// Density of free spheres over that of the fluid: forces of the fluid act on them one step late.
+constexpr double least_ratio = 1.1;
+/// Of a box of free spheres over the largest diameter: none touches another and its image, nor do their films.
+constexpr double least_width = 2.05;
+
+bool asks(const core::Scene& scene) {
+  return !scene.resolve.voidage.empty() && !scene.species.empty() &&
+         scene.bed.volume_share.size() == scene.species.size();
+}
+
+Broken pores_too_coarse(const core::Scene& scene) {
+  Broken broken;
+  if (!asks(scene)) return broken;
+  const int grid = scene.resolve.grids - 1;
+  for (const double eps : scene.resolve.voidage) {
+    const double cells = pore_of(eps) * sauter_cells(scene, grid);
+    if (cells >= least_pore) continue;
+    broken.add({fmt::format("{}", scene.resolve.cells_per_diameter), fmt::format("{:.2g}", cells),
+                fmt::format("{:g}", eps), fmt::format("{:g}", least_pore),
+                fmt::format("{:.0f}", std::ceil(scene.resolve.cells_per_diameter * least_pore / cells))});
+  }
+  return broken;
+}
+
+bool is_stable(double eps, double re, double sauter_in_cells) {
+  return re == 0 || units_of(eps, re, sauter_in_cells).viscosity >= least_viscosity(pore_of(eps) * sauter_in_cells);
+}
+
+Broken reynolds_beyond_grid(const core::Scene& scene) {
+  Broken broken;
+  if (!asks(scene)) return broken;
+  const double cells = sauter_cells(scene, scene.resolve.grids - 1);
+  for (const double eps : scene.resolve.voidage)
+    for (const double re : scene.resolve.reynolds) {
+      if (is_stable(eps, re, cells)) continue;
+      double more = 1;
+      while (!is_stable(eps, re, more * cells)) more += 0.01;
+      broken.add({fmt::format("{:g}", re), fmt::format("{:g}", eps),
+                  fmt::format("{:.2g}", units_of(eps, re, cells).viscosity),
+                  fmt::format("{:.2g}", least_viscosity(pore_of(eps) * cells)),
+                  fmt::format("{:.0f}", std::ceil(scene.resolve.cells_per_diameter * more))});
+    }
+  return broken;
+}
+
+Broken species_without_spheres(const core::Scene& scene) {
+  Broken broken;
+  if (!asks(scene)) return broken;
+  const std::vector<std::int64_t> numbers = sphere_numbers(scene);
+  for (std::size_t j = 0; j < numbers.size(); ++j)
+    if (numbers[j] == 0) broken.add({fmt::format("{}", scene.resolve.spheres), scene.species[j].name});
+  return broken;
+}
+
+bool are_free(const core::Scene& scene) { return scene.resolve.motion == core::SphereMotion::free; }
+
+Broken reynolds_of_no_use(const core::Scene& scene) {
+  const core::SphereMotion motion = scene.resolve.motion;
+  if (motion == core::SphereMotion::held || scene.resolve.reynolds == core::Resolve().reynolds) return {};
+  return Broken({std::string(core::name_of(motion)),
+                 motion == core::SphereMotion::free ? "the weight of the spheres decides on the Reynolds number"
+                                                    : "spheres that pass each other keep their places in Stokes flow"});
+}
+
+Broken nothing_to_fall_in(const core::Scene& scene) {
+  if (!are_free(scene)) return {};
+  if (!scene.fluid.present()) return Broken({"a fluid"});
+  return scene.column.gravity > 0 ? Broken() : Broken({"column.gravity above 0"});
+}
+
+/// Whether there are free spheres in a fluid that is known: where it is not, another rule says so.
+bool fall(const core::Scene& scene) {
+  if (!are_free(scene) || nothing_to_fall_in(scene) || !asks(scene)) return false;
+  try {
+    return relevance::fluid_constants(scene.fluid).density > 0;
+  } catch (const core::CaseError&) {
+    return false;
+  }
+}
+
+Broken spheres_too_light(const core::Scene& scene) {
+  Broken broken;
+  if (!fall(scene)) return broken;
+  const double density = relevance::fluid_constants(scene.fluid).density;
+  for (std::size_t j = 0; j < scene.species.size(); ++j)
+    if (const double ratio = scene.species[j].density / density; ratio < least_ratio)
+      broken.add({scene.species[j].name, fmt::format("{:.3g}", ratio), fmt::format("{:g}", least_ratio)}, j);
+  return broken;
+}
+
+Broken box_too_narrow(const core::Scene& scene) {
+  Broken broken;
+  if (!are_free(scene) || !asks(scene) || species_without_spheres(scene)) return broken;
+  for (const double eps : scene.resolve.voidage) {
+    const double width = box_length(scene, eps) / core::largest_diameter(scene);
+    if (width >= least_width) continue;
+    broken.add({fmt::format("{}", scene.resolve.spheres), fmt::format("{:g}", eps), fmt::format("{:.3g}", width),
+                fmt::format("{:g}", least_width),
+                fmt::format("{:.0f}", std::ceil(scene.resolve.spheres * std::pow(least_width / width, 3)))});
+  }
+  return broken;
+}
+
+Broken fall_beyond_grid(const core::Scene& scene) {
+  Broken broken;
+  if (!fall(scene) || spheres_too_light(scene)) return broken;
+  const int grid = scene.resolve.grids - 1;
+  const double cells = cells_of(scene.resolve, grid), sauter = sauter_cells(scene, grid);
+  for (const double eps : scene.resolve.voidage) {
+    const auto lacks = [&](double more) {
+      return units_of_fall(scene, more * cells).viscosity < least_viscosity(pore_of(eps) * more * sauter);
+    };
+    if (!lacks(1)) continue;
+    double more = 1;
+    while (lacks(more)) more += 0.01;
+    broken.add({fmt::format("{}", scene.resolve.cells_per_diameter), fmt::format("{:g}", eps),
+                fmt::format("{:.2g}", units_of_fall(scene, cells).viscosity),
+                fmt::format("{:.2g}", least_viscosity(pore_of(eps) * sauter)),
+                fmt::format("{:.0f}", std::ceil(scene.resolve.cells_per_diameter * more))});
+  }
+  return broken;
+}
+
+}  // namespace
+
+std::vector<core::Rule> resolve_rules() {
+  return {
+      {{"resolve.cells_per_diameter", "resolve.voidage", "resolve.grids", "species.diameter", "bed.volume_share"},
+       "resolve.cells_per_diameter = {}: the pores are {} cells wide on the coarsest grid at a voidage of {}, they "
+       "need {}; take {} or more, or fewer resolve.grids",
+       pores_too_coarse},
+      {{"resolve.reynolds", "resolve.cells_per_diameter", "resolve.voidage", "resolve.grids", "species.diameter",
+        "bed.volume_share"},
+       "resolve.reynolds = {} at a voidage of {}: the viscosity would be {} in cells and steps, stable from {}; take "
+       "resolve.cells_per_diameter = {} or more, or fewer resolve.grids",
+       reynolds_beyond_grid},
+      {{"resolve.spheres", "resolve.voidage", "species.diameter", "bed.volume_share"},
+       "resolve.spheres = {} leaves none of species '{}': take more",
+       species_without_spheres},
+      {{"resolve.motion", "resolve.reynolds"},
+       "resolve.motion = \"{}\": {}; leave out resolve.reynolds",
+       reynolds_of_no_use},
+      {{"resolve.motion", "fluid.name", "column.gravity"}, "resolve.motion = \"free\" needs {}", nothing_to_fall_in},
+      {{"species.density", "resolve.motion", "fluid.name", "fluid.density", "fluid.viscosity", "fluid.temperature"},
+       "resolve.motion = \"free\": species '{}' is {} times as dense as the fluid; drag acts on free spheres one step "
+       "late, which is stable from {} times on",
+       spheres_too_light},
+      {{"resolve.cells_per_diameter", "resolve.motion", "resolve.voidage", "resolve.grids", "species.diameter",
+        "species.density", "bed.volume_share", "fluid.name", "fluid.density", "fluid.viscosity", "fluid.temperature"},
+       "resolve.cells_per_diameter = {}: free spheres at a voidage of {} would fall at a viscosity of {} in cells and "
+       "steps, stable from {}; take {} or more, or fewer resolve.grids",
+       fall_beyond_grid},
+      {{"resolve.spheres", "resolve.motion", "resolve.voidage", "species.diameter", "bed.volume_share"},
+       "resolve.spheres = {}: at a voidage of {} the box is {} of the largest diameters wide; free spheres need {}, so "
+       "that none touches another and its image: take {} or more",
+       box_too_narrow}};
+}
+
+}  // namespace polybed::multiscale
