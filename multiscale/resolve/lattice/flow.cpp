@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <tuple>
 
 #include "core/error.hpp"
 
@@ -95,7 +94,6 @@ void Flow<Real>::find_links(const Obstacles& obstacles) {
     int layer;  // from 0; behind all, the rim
     std::int32_t owner, way;
     std::array<int, 3> at;
-    [[nodiscard]] auto place() const { return std::tuple(layer, owner, way); }
   };
   const auto layer_of = [&](const std::array<int, 3>& at, std::size_t way) {
     for (std::size_t k = 0; k < 3; ++k)
@@ -104,6 +102,7 @@ void Flow<Real>::find_links(const Obstacles& obstacles) {
   };
   // From the covered sites, which are fewer than those of the fluid.
   std::vector<Found> found;
+  std::vector<std::uint64_t> order;  // by bundle, then as found
   for (int i = 0; i < sites_.box[0] + 2; ++i)
     for (int j = 0; j < sites_.box[1] + 2; ++j)
       for (int k = 0; k < sites_.box[2] + 2; ++k) {
@@ -111,20 +110,22 @@ void Flow<Real>::find_links(const Obstacles& obstacles) {
         if (owner == Obstacles::none) continue;
         for (std::size_t w = 1; w < directions; ++w) {
           const std::array<int, 3> fluid{i - ways[w][0], j - ways[w][1], k - ways[w][2]};
-          if (sites_.in_box(fluid) && owner_[sites_.at(fluid[0], fluid[1], fluid[2])] == Obstacles::none)
-            found.push_back({layer_of(fluid, w), owner, std::int32_t(w), fluid});
+          if (!sites_.in_box(fluid) || owner_[sites_.at(fluid[0], fluid[1], fluid[2])] != Obstacles::none) continue;
+          const std::size_t layer = std::size_t(layer_of(fluid, w));
+          order.push_back(((layer * obstacles.count() + std::size_t(owner)) * directions + w) << 32 | found.size());
+          found.push_back({int(layer), owner, std::int32_t(w), fluid});
         }
       }
-  std::stable_sort(found.begin(), found.end(), [](const Found& a, const Found& b) { return a.place() < b.place(); });
+  std::sort(order.begin(), order.end());
   rim_ = {};
   bundles_.clear();
   links_.clear();
   links_.reserve(found.size());
-  for (std::size_t n = 0; n < found.size(); ++n) {
-    const Found& one = found[n];
+  for (std::size_t n = 0; n < order.size(); ++n) {
+    const Found& one = found[order[n] & 0xffffffff];
     Span& bundles = one.layer == sites_.box[0] ? rim_ : layers_[std::size_t(one.layer)].bundles;
-    if (n == 0 || found[n - 1].place() != one.place()) {
-      if (n == 0 || found[n - 1].layer != one.layer) bundles.begin = bundles_.size();
+    if (n == 0 || order[n - 1] >> 32 != order[n] >> 32) {
+      if (bundles.end == 0) bundles.begin = bundles_.size();
       bundles_.push_back({std::uint32_t(n), 0, one.way, one.owner});
       bundles.end = bundles_.size();
     }
