@@ -106,3 +106,16 @@ TEST(FreeBox, GoesOnFromItsFileWithTheSameBits) {
   EXPECT_EQ(box_text(resumed), box_text(whole));
   EXPECT_FALSE(std::filesystem::exists(kept.path));
 }
+
+TEST(FreeBox, RowsHaveSlipAndItsReynoldsNumbers) {
+  const core::Scene scene = one_size(27, 0.8);
+  RowBoxes boxes;
+  for (const double slip : {0.02, 0.04}) {
+    BoxDrag box{{3}, {2.5}, {slip}, {0.001}, {0.002}, 8};
+    boxes.push_back({{box}});
+  }
+  // Mean 0.03 m/s, standard error 0.01; Re = 1000 0.03 1.5e-3/5e-3 = 9, in a pore and a cell 9/(0.8 8) = 1.406.
+  EXPECT_EQ(row_header(scene),
+            "eps,Re,x1,D1,u_1,u_1_se,f_1,v_1,w_1,packings,resolution,spheres,imbalance,cell_Re,u_1_grid");
+  EXPECT_EQ(row_text(scene, 0.8, 0, boxes), "0.8,9,1.00000000,0.0015,0.03,0.01,2.5,0.001,0.002,2,8,27,0,1.41,");
+}
