@@ -231,7 +231,7 @@ Table resolve_table() {
           key(&Resolve::precision, "precision", help("of the numbers of the flow: single takes half the memory")),
           key(&Resolve::until, "until", dimension::time, above(0, 1e6),
               help("simulated time of boxes of free spheres, of which the first third is dropped; default: in which "
-                   "the fastest species, alone, falls through its box ten times")),
+                   "the fastest species, hindered by the others, falls through its box about ten times")),
           key(&Resolve::checkpoint_every, "checkpoint_every", dimension::time, above(0, 1e9),
               help("on the clock, between checkpoints of a box that is not steady yet")),
       });

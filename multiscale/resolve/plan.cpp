@@ -27,8 +27,9 @@ constexpr double stokes_viscosity = 0.5, stokes_speed = 1e-3;
 constexpr double usual_stokes = 10, usual_inertia = 20;
 /// Most at a Reynolds number above 0.
 constexpr double most_viscosity = 1.0 / 6;
-/// Of its box, in which the fastest species falls alone while free spheres are simulated.
-constexpr double crossings = 10;
+/// Of its box, through which the fastest species falls while free spheres are simulated, hindered as voidage^3: the law
+/// of Richardson and Zaki has 2.4 to 4.65.
+constexpr double crossings = 10, hindrance = 3;
 /// Steps of free spheres between two moments at which mass is levelled and a run may stop.
 constexpr double free_window = 200;
 /// Fewer have no sample after the first third.
@@ -116,7 +117,8 @@ BoxPlan plan_of(const core::Scene& scene, const ResolvePoint& point) {
     plan.window = free_window;
     const Fall fall = fall_of(scene);
     plan.step = plan.units.speed / plan.scale / fall.speed;
-    const double until = scene.resolve.until.value_or(crossings * length / fall.speed);
+    const double until =
+        scene.resolve.until.value_or(crossings * length / (fall.speed * std::pow(point.voidage, hindrance)));
     plan.steps = std::max<std::int64_t>(2 * std::llround(until / plan.step / 2), least_steps);
   }
   return plan;
@@ -125,7 +127,7 @@ BoxPlan plan_of(const core::Scene& scene, const ResolvePoint& point) {
 BoxNeed box_need(const core::Scene& scene, const ResolvePoint& point) {
   // Links of a lattice of 18 ways to a plane, mean over its directions: a quarter of the sum of their lengths.
   constexpr double links_of_area = (6 + 12 * std::numbers::sqrt2) / 4;
-  constexpr double site_bytes = 4, link_bytes = 44;  // whose a site is; a link, and what it was found from
+  constexpr double site_bytes = 4, link_bytes = 52, moving_bytes = 16;  // whose a site is; a link, and how it was found
   const BoxPlan box = plan_of(scene, point);
   const double real = scene.resolve.precision == core::Precision::one ? sizeof(float) : sizeof(double);
   BoxNeed need;
@@ -133,7 +135,8 @@ BoxNeed box_need(const core::Scene& scene, const ResolvePoint& point) {
   const bool free = scene.resolve.motion == core::SphereMotion::free;
   need.steps = free ? double(box.steps) : std::ceil((point.reynolds > 0 ? usual_inertia : usual_stokes) * box.window);
   const double links = links_of_area * 6 * (1 - point.voidage) / box.sauter * need.sites;
-  need.bytes = std::pow(box.edge + 2, 3) * (lattice::directions * real + site_bytes) + links * link_bytes;
+  need.bytes = std::pow(box.edge + 2, 3) * (lattice::directions * real + site_bytes) +
+               links * (link_bytes + (scene.resolve.motion == core::SphereMotion::held ? 0 : moving_bytes));
   return need;
 }
 
