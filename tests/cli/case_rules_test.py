@@ -160,9 +160,9 @@ KEYS = {
     'resolve.motion = "{}": {}; leave out resolve.reynolds': ["resolve.motion=moving", "resolve.reynolds=[5]"],
     'resolve.motion = "free" needs {}': ["resolve.motion=free", "column.gravity=0"],
     "resolve.motion = \"free\": species '{}' is {} times as dense as the fluid; drag acts on free spheres one step late, which is stable "
-    "from {} times on": [*FREE, "species.1.density=1050"],
+    "from {} times on": [*FREE, "species.fine.density=1050"],
     "resolve.cells_per_diameter = {}: free spheres at a voidage of {} would fall at a viscosity of {} in cells and steps, stable from {}; take "
-    "{} or more, or fewer resolve.grids": [*FREE, "species.1.density=9000"],
+    "{} or more, or fewer resolve.grids": [*FREE, "species.fine.density=9000"],
     'calibrate.regime = "{}" needs a fluid: fluid.name is "none"': [DRY, "calibrate.regime=wet"],
 }
 
