@@ -7,6 +7,7 @@
 
 #include "core/error.hpp"
 #include "core/numerics/blocks.hpp"
+#include "core/numerics/metric.hpp"
 #include "core/numerics/ranks.hpp"
 #include "core/output/blocks.hpp"
 
@@ -101,18 +102,22 @@ std::vector<BlockData> step_data(const Grid& grid, std::span<const FieldName> na
   return data;
 }
 
+/// Whether a wall closes cells of the grid, which then hold no fluid although their voidage is 1.
+bool has_closed_cells(const Grid& grid) { return grid.metric && !grid.metric->around_axis; }
+
 void write_grid(const Grid& grid, OutputFile& file) {
   for (int axis = 0; axis < 3; ++axis) {
     const std::vector<double> faces = face_positions(grid, axis);
     file.write(std::string("grid/") + axis_names[std::size_t(axis)], {faces.size()}, faces);
   }
+  if (has_closed_cells(grid)) file.write("grid/open", cell_slab(grid, 0).shape, packed(grid, {grid.metric->volume}, 1));
 }
 
 bool has_grid(const Grid& grid, const OutputFile& file) {
   for (int axis = 0; axis < 3; ++axis)
     if (file.read(std::string("grid/") + axis_names[std::size_t(axis)]).values != face_positions(grid, axis))
       return false;
-  return true;
+  return !has_closed_cells(grid) || file.read("grid/open").values == packed(grid, {grid.metric->volume}, 1);
 }
 
 /// Numbers per axis, slowest first: cells and `more` of each.
@@ -141,11 +146,11 @@ std::string geometry(const Grid& grid) {
 }
 
 /// ParaView shows vectors of three components only; a 2-D run stores a copy made for it.
-std::string attribute(const Grid& grid, const FieldName& field, const std::string& file) {
+std::string attribute(const Grid& grid, const FieldName& field, const std::string& file, const char* group = "step") {
   const std::string shape = dimensions(grid, 0);
   const bool copied = field.vector && grid.dimensions == 2;
   const std::string item = data_item(field.vector ? shape + " 3" : shape, copied ? 4 : 8,
-                                     fmt::format("{}:/{}/{}", file, copied ? "paraview" : "step", field.name));
+                                     fmt::format("{}:/{}/{}", file, copied ? "paraview" : group, field.name));
   return fmt::format(
       "        <Attribute Name=\"{}\" AttributeType=\"{}\" Center=\"Cell\">\n          {}\n"
       "        </Attribute>\n",
@@ -163,6 +168,7 @@ std::string fields_xdmf(const Grid& grid, std::span<const FieldName> names, std:
                         step_name(step), times[step]);
     text += mesh;
     for (const FieldName& field : names) text += attribute(grid, field, fmt::format("fields/{}.h5", step_name(step)));
+    if (has_closed_cells(grid)) text += attribute(grid, {"open"}, "fields.h5", "grid");
     text += "      </Grid>\n";
   }
   return text + "    </Grid>\n  </Domain>\n</Xdmf>\n";

@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 import matplotlib.pyplot as plt
 import numpy as np
 
-from polybed.drawing.style import EMPTY, fitted, length_unit
+from polybed.drawing.style import EMPTY, faces_across, fitted, length_unit, wall_to_wall, width_of
 from polybed.files import DamagedError
 from polybed.record import case_of
 
@@ -32,7 +32,7 @@ class Group:
 
 def map_size(run, top, most):
     """Width and height of one map, inches."""
-    aspect = run.size[0] / top
+    aspect = width_of(run) / top
     width = float(np.clip(most * aspect, *WIDTHS))
     return width, min(most, width / aspect)
 
@@ -56,12 +56,12 @@ def inner_walls(run):
 def frame(axes, run, title, top, first):
     """Axes that show the column up to a height, to scale, in the unit of the run."""
     factor, unit = length_unit(run)
-    width = run.size[0] * factor
+    faces = faces_across(run) * factor
     axes.set_aspect("equal")
     axes.set_title(title)
-    axes.set_xlim(0, width)
-    axes.set_xticks([0, width], ["0", f"{width:g}"])
-    axes.set_xlabel(f"x ({unit})")
+    axes.set_xlim(faces[0], faces[-1])
+    axes.set_xticks([faces[0], faces[-1]], [f"{faces[0]:g}", f"{faces[-1]:g}"])
+    axes.set_xlabel(f"{'r' if faces[0] < 0 else 'x'} ({unit})")
     axes.set_ylim(0, top * factor)
     axes.spines[["top", "right"]].set_visible(True)
     for start, end in inner_walls(run):
@@ -75,7 +75,7 @@ def frame(axes, run, title, top, first):
 def draw_map(axes, run, group, title, values, top, first):
     """One map in the unit of the run, and its mesh."""
     factor = length_unit(run)[0]
-    mesh = axes.pcolormesh(run.faces["x"] * factor, run.faces["y"] * factor, values, rasterized=True, **group.mapping())
+    mesh = axes.pcolormesh(faces_across(run) * factor, run.faces["y"] * factor, wall_to_wall(run, values), rasterized=True, **group.mapping())
     frame(axes, run, title, top, first)
     return mesh
 

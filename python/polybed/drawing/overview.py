@@ -6,7 +6,7 @@ import numpy as np
 from polybed.drawing import particles
 from polybed.drawing.fields import fractions, voidages
 from polybed.drawing.maps import draw_map, frame
-from polybed.drawing.style import GREY, PALE, fitted, length_unit, shown_height, species_line, title_of
+from polybed.drawing.style import GREY, PALE, fitted, length_unit, shown_height, species_line, title_of, width_of
 from polybed.read import nearest
 
 MAP_HEIGHT = 5.2  # inches
@@ -123,7 +123,7 @@ def draw(run, step):
         time, top, count, draw_bed = run.particles.time[step], particles.shown_top(run, [step]), 2, draw_particles
     else:
         time, top, count, draw_bed = run.time[step], shown_height(run, [step]), len(run.species) + 1, draw_fields
-    layout = Layout(count, run.size[0] / top)
+    layout = Layout(count, width_of(run) / top)
     draw_bed(run, step, layout, top)
     profile = layout.profile()
     draw_profiles(profile, run, time, legend=layout.map_height > 2.5)

@@ -11,8 +11,9 @@ import matplotlib
 matplotlib.use("Agg")
 import numpy as np
 
+from polybed.files import DamagedError
 from polybed.quantities import LEVELS
-from polybed.record import title_of_case
+from polybed.record import case_of, title_of_case
 
 COLOURS = ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9"]
 NAMES = {"tfm": "two-fluid", "dem": "particles"}  # of the models, beside each other
@@ -63,6 +64,32 @@ def in_plane(field):
 def vector_in_plane(field):
     """A vector field as [y][x][component], as in_plane."""
     return field[field.shape[0] // 2] if field.ndim == 4 else field
+
+
+def around_axis(run):
+    """Whether a run stores one side of a round column, from its axis to the wall."""
+    try:
+        return case_of(run.record).get("column", {}).get("shape") == "axisymmetric"
+    except DamagedError:
+        return False
+
+
+def wall_to_wall(run, plane):
+    """Values [y][x] on both sides of the axis, where a run stores one."""
+    if not around_axis(run):
+        return plane
+    return (np.ma if np.ma.isMaskedArray(plane) else np).hstack([plane[:, ::-1], plane])
+
+
+def faces_across(run):
+    """Faces of the cells from wall to wall, m; 0 is the axis of a run around one."""
+    x = run.faces["x"] if run.faces else np.array([0, run.size[0]])
+    return np.concatenate([-x[:0:-1], x]) if around_axis(run) else x
+
+
+def width_of(run):
+    """Width of the column from wall to wall, m."""
+    return run.size[0] * (2 if around_axis(run) else 1)
 
 
 def shown_height(run, steps):

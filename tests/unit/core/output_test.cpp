@@ -10,6 +10,8 @@
 #include <limits>
 
 #include "core/error.hpp"
+#include "core/numerics/metric.hpp"
+#include "core/output/files.hpp"
 #include "core/output/rows.hpp"
 #include "scenes/stored_steps.hpp"
 #include "tests/unit/core/scratch.hpp"
@@ -73,6 +75,26 @@ TEST(Fields, OwnedCellsComeBackInCOrder) {
       EXPECT_EQ(vector.values[3 * (3 * (4 + 2) + 1) + 2], 3000.5 + 1 + 20 + 100);
     }
   }
+}
+
+// Corners of a tube of four by four cells lie beyond its wall: ParaView is given what is open, in the order of fields.
+TEST(Fields, OfATubeTellWhatIsOpen) {
+  const test::Scratch scratch;
+  Grid grid = small_grid(3);
+  grid.cells = {4, 3, 4};
+  grid.spacing = {0.1, 0.2, 0.1};
+  grid.metric = metric_of(grid, ColumnShape::cylinder);
+  FieldWriter writer(scratch.path(), grid, two_names);
+  write_sample(writer, grid, 0.5);
+  const DataSet open = FieldReader(scratch.path()).index().read("grid/open");
+  EXPECT_THAT(open.shape, ElementsAre(4, 3, 4));
+  EXPECT_EQ(open.values[0], 0);
+  EXPECT_EQ(open.values[4 * (1 + 3 * 2) + 1], grid.metric->volume[std::size_t(grid.index(1, 1, 2))]);
+  EXPECT_GT(open.values[4 * (1 + 3 * 2) + 1], 0);
+  EXPECT_THAT(read_text(scratch.path() / "fields.xdmf"), HasSubstr("fields.h5:/grid/open"));
+  FieldWriter resumed(scratch.path(), grid, two_names, 0.5);
+  write_sample(resumed, grid, 1.0);
+  EXPECT_THAT(FieldReader(scratch.path()).times(), ElementsAre(0.5, 1.0));
 }
 
 TEST(Fields, AreCompleteAfterEveryStep) {

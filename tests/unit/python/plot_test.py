@@ -20,6 +20,7 @@ import matplotlib.pyplot as plt
 import polybed
 from polybed import plot
 from polybed.drawing import animation, fields, history, maps, overview, particles, profiles, style
+from polybed.report import beds
 
 
 class SampleRun(unittest.TestCase):
@@ -182,6 +183,33 @@ class Whole(SampleRun):
         self.assertEqual(ended.exception.code, 2)
         self.assertEqual(json.loads(out.getvalue()), {"pictures": [str(self.directory / "pictures/overview.png")]})
         self.assertIn("films", err.getvalue())
+
+
+class AroundAxis(SampleRun):
+    """The sample as if 60 mm were the radius of a tube."""
+
+    def setUp(self):
+        super().setUp()
+        path = self.directory / "run.json"
+        path.write_text(json.dumps(json.loads(path.read_text()) | {"case": '[column]\nshape = "axisymmetric"'}))
+        self.sample = polybed.read(self.directory)
+
+    def test_pictures_and_page_go_from_wall_to_wall(self):
+        figure, meshes = maps.draw_maps(self.sample, [fields.fractions(self.sample, 4)], "", 0.14)
+        axes = figure.axes[0]
+        self.assertEqual(axes.get_xlim(), (-60, 60))
+        self.assertTrue(axes.get_xlabel().startswith("r"))
+        phi = self.sample.phi_fine[4]
+        np.testing.assert_array_equal(meshes[0][0].get_array().reshape(60, 36), np.hstack([phi[:, ::-1], phi]))
+        on_page = beds.maps_of(self.sample)
+        self.assertEqual((on_page["nx"], on_page["size"][0]), (36, 120))
+        self.assertIn("both sides", on_page["note"])
+
+    def test_a_film_keeps_both_sides(self):
+        animation.film(self.sample, self.directory / "film.gif")
+        self.assertTrue((self.directory / "film.gif").exists())
+        _, _, show = animation.field_frames(self.sample)
+        show(4)
 
 
 class Whole3D(Whole):
