@@ -57,23 +57,32 @@ void add_differences(const double* b, const double* p, double w, Index s, Index 
 
 }  // namespace
 
-bool RowMeanSolver::serves(const Grid& grid) { return grid.cells[0] <= most_across && grid.cells[2] <= most_across; }
+bool RowMeanSolver::serves(const Grid& grid) {
+  if (grid.metric && !grid.metric->around_axis) return SectionModes::serves(grid);
+  return grid.cells[0] <= most_across && grid.cells[2] <= most_across;
+}
 
 RowMeanSolver::RowMeanSolver(const Grid& grid)
     : grid_(grid),
       halo_(grid),
-      x_(grid.metric && grid.metric->around_axis ? modes_of_rings(grid) : modes_of(grid, 0)),
-      z_(modes_of(grid, 2)),
       up_(std::size_t(grid.cells[1] + 1)),
       diagonal_(std::size_t(grid.cells[1])),
-      factor_(grid.cell_count()),
-      values_(grid.cells[1] * grid.cells[2], grid.cells[0]),
-      turned_(values_),
       residual_(make_field(grid)),
       direction_(residual_),
       image_(residual_),
       preconditioned_(residual_) {
   across_[0] = across_[1] = diagonal_;
+  if (grid.metric && !grid.metric->around_axis) {
+    section_.emplace(grid);
+    x_.rate = section_->rates();
+    z_.rate = {0};
+  } else {
+    x_ = grid.metric ? modes_of_rings(grid) : modes_of(grid, 0);
+    z_ = modes_of(grid, 2);
+  }
+  values_.resize(grid.cells[1] * Eigen::Index(z_.rate.size()), Eigen::Index(x_.rate.size()));
+  turned_ = Matrix::Zero(values_.rows(), values_.cols());
+  factor_.resize(std::size_t(values_.size()));
 }
 
 /// Cosines between walls, cosines and sines where sides are joined.
@@ -115,23 +124,26 @@ RowMeanSolver::Modes RowMeanSolver::modes_of_rings(const Grid& grid) {
 /// Means over the cells of each height; false if coefficients differ too much along one.
 bool RowMeanSolver::average(const FaceSpans& coefficient, std::span<const double> shift) {
   const auto n = grid_.cells;
-  bool fine = !grid_.metric || grid_.metric->around_axis;  // where a wall cuts cells no row is even
-  if (!fine) return false;
+  bool fine = true;
+  double faces = 0;
   const auto mean = [&](int axis, int row) {
     const auto a = std::size_t(axis);
     std::array<int, 3> lo{0, row, 0}, hi{n[0], row + 1, n[2]};
     if (axis != 1 && !grid_.periodic[a]) lo[a] = std::min(1, n[a] - 1);  // between cells
     double sum = 0, least = INFINITY, most = 0;
+    faces = 0;
     for_each_row(grid_, lo, hi, [&](Index begin, Index end) {
       for (auto c = std::size_t(begin); c < std::size_t(end); ++c) {
-        const double b = coefficient[a][c] / (grid_.metric ? grid_.metric->open[a][c] : 1.0);
+        const double open = grid_.metric ? grid_.metric->open[a][c] : 1.0;
+        if (!(open > 0)) continue;
+        const double b = coefficient[a][c] / open;
         sum += b;
+        ++faces;
         least = std::min(least, b);
         most = std::max(most, b);
       }
     });
     fine = fine && most <= most_contrast * least;
-    const double faces = double(hi[0] - lo[0]) * (hi[2] - lo[2]);
     return sum / (faces * grid_.spacing[a] * grid_.spacing[a]);
   };
   for (int row = 0; row <= n[1]; ++row) up_[std::size_t(row)] = mean(1, row);
@@ -139,19 +151,22 @@ bool RowMeanSolver::average(const FaceSpans& coefficient, std::span<const double
     const auto r = std::size_t(row);
     across_[0][r] = n[0] > 1 ? mean(0, row) : 0;
     across_[1][r] = n[2] > 1 ? mean(2, row) : 0;
+    if (section_)  // one mean for both ways
+      across_[0][r] = 0.5 * (across_[0][r] * grid_.spacing[0] * grid_.spacing[0] +
+                             across_[1][r] * grid_.spacing[2] * grid_.spacing[2]);
     diagonal_[r] = 0;
     if (shift.empty()) continue;
     for_each_row(grid_, {0, row, 0}, {n[0], row + 1, n[2]}, [&](Index begin, Index end) {
       for (auto c = std::size_t(begin); c < std::size_t(end); ++c) diagonal_[r] += shift[c];
     });
-    diagonal_[r] /= double(n[0]) * n[2];
+    diagonal_[r] /= open_cells_of_layer(grid_);
   }
   return fine;
 }
 
 /// Gauss's elimination up the column, for each mode: pivot = d - up^2/(pivot below).
 void RowMeanSolver::factorise() {
-  const auto [nx, ny, nz] = grid_.cells;
+  const int nx = int(x_.rate.size()), ny = grid_.cells[1], nz = int(z_.rate.size());
   for (int k = 0; k < nz; ++k)
     for (int j = 0; j < ny; ++j) {
       const auto r = std::size_t(j);
@@ -166,7 +181,7 @@ void RowMeanSolver::factorise() {
 
 /// Forward and backward substitution of all modes.
 void RowMeanSolver::sweep() {
-  const auto [nx, ny, nz] = grid_.cells;
+  const int nx = int(x_.rate.size()), ny = grid_.cells[1], nz = int(z_.rate.size());
   for (int k = 0; k < nz; ++k) {
     double* v = values_.data() + std::ptrdiff_t(k) * ny * nx;
     const double* factor = factor_.data() + std::ptrdiff_t(k) * ny * nx;
@@ -185,6 +200,12 @@ void RowMeanSolver::sweep() {
 
 /// z = the row-mean equation's solution for r: into waves, up and down the column, and back.
 void RowMeanSolver::precondition(const Field& r, Field& z) {
+  if (section_) {
+    section_->to_modes(r, turned_, values_);
+    sweep();
+    section_->to_cells(values_, turned_, z);
+    return;
+  }
   const auto [nx, ny, nz] = grid_.cells;
   double* to = turned_.data();
   for_each_row(grid_, [&](Index begin, Index end) { to = std::copy(r.begin() + begin, r.begin() + end, to); });

@@ -10,12 +10,14 @@
 
 #include "core/numerics/halo.hpp"
 #include "core/numerics/linear_solver.hpp"
+#include "core/numerics/section_modes.hpp"
 
 namespace polybed::core {
 
 class RowMeanSolver {
  public:
-  /// Whether a whole column is one that this serves: with at most 64 cells across each way.
+  /// Whether a whole column is one that this serves: with at most 64 cells across each way, and where a wall cuts cells
+  /// with a section that has modes.
   [[nodiscard]] static bool serves(const Grid& grid);
   explicit RowMeanSolver(const Grid& grid);
 
@@ -26,7 +28,7 @@ class RowMeanSolver {
                            double tolerance);
 
  private:
-  using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  using Matrix = SectionModes::Matrix;
 
   /// The waves that fit across an axis of the grid, which the second difference there only scales; of rings what takes
   /// their place.
@@ -45,6 +47,7 @@ class RowMeanSolver {
 
   Grid grid_;
   Halo halo_;
+  std::optional<SectionModes> section_;  ///< where a wall cuts cells, in place of waves both ways
   Modes x_, z_;
   std::vector<double> across_[2], up_, diagonal_;  ///< means over rows: along axes 0 and 2, 1 (faces), and of the shift
   std::vector<double> factor_;                     ///< 1/pivot of each mode: [layer][row][mode]

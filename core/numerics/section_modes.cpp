@@ -1,0 +1,133 @@
+#include "core/numerics/section_modes.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include "core/numerics/metric.hpp"
+
+namespace polybed::core {
+
+namespace {
+
+constexpr int most_of_a_quarter = 400;
+
+/// Open areas of all faces as the equation takes them.
+FaceField open_faces(const Grid& column) {
+  FaceField open = make_face_field(column, 1);
+  weigh_faces(column, open);
+  return open;
+}
+
+/// Share that an even or odd mode, of length 1 over a pair of mirror images, has in a cell.
+double share(bool odd, int i, int cells) {
+  const int mirror = cells - 1 - i;
+  if (i == mirror) return odd ? 0 : 1;
+  return odd && i > mirror ? -1 / std::numbers::sqrt2 : 1 / std::numbers::sqrt2;
+}
+
+}  // namespace
+
+bool SectionModes::serves(const Grid& column) {
+  const auto [nx, ny, nz] = column.cells;
+  if (!column.metric || column.metric->around_axis || ((nx + 1) / 2) * ((nz + 1) / 2) > most_of_a_quarter) return false;
+  const FaceField open = open_faces(column);
+  for (std::size_t a = 0; a < 3; ++a)
+    for (int k = 0; k < nz; ++k)
+      for (int j = 2; j < ny; ++j)
+        for (int i = 0; i < nx; ++i)
+          if (open[a][std::size_t(column.index(i, j, k))] != open[a][std::size_t(column.index(i, 1, k))]) return false;
+  return true;
+}
+
+SectionModes::SectionModes(const Grid& column)
+    : grid_(column),
+      half_x_((column.cells[0] + 1) / 2),
+      half_z_((column.cells[2] + 1) / 2),
+      quarter_(half_x_ * half_z_),
+      rates_(std::size_t(4 * quarter_)) {
+  const auto [nx, ny, nz] = grid_.cells;
+  const FaceField open = open_faces(grid_);
+  const int row = std::min(1, ny - 1);  // its low faces along y lie between cells
+  for (std::size_t kind = 0; kind < 4; ++kind) {
+    Eigen::MatrixXd differences = Eigen::MatrixXd::Zero(quarter_, quarter_);
+    Eigen::VectorXd volume = Eigen::VectorXd::Zero(quarter_);
+    const auto weight = [&, nx = nx, nz = nz](int i, int k) {
+      return share(kind % 2 == 1, i, nx) * share(kind / 2 == 1, k, nz);
+    };
+    const auto place = [&, nx = nx, nz = nz](int i, int k) {
+      return Eigen::Index(std::min(i, nx - 1 - i)) + half_x_ * std::min(k, nz - 1 - k);
+    };
+    const auto add_face = [&](double alpha, int i, int k, int next_i, int next_k) {
+      const auto a = place(i, k), b = place(next_i, next_k);
+      const double here = weight(i, k), there = weight(next_i, next_k);
+      differences(a, a) += alpha * here * here;
+      differences(b, b) += alpha * there * there;
+      differences(a, b) -= alpha * here * there;
+      differences(b, a) -= alpha * here * there;
+    };
+    for (int k = 0; k < nz; ++k)
+      for (int i = 0; i < nx; ++i) {
+        const auto c = std::size_t(grid_.index(i, row, k));
+        const double wx = 1 / (grid_.spacing[0] * grid_.spacing[0]), wz = 1 / (grid_.spacing[2] * grid_.spacing[2]);
+        volume[place(i, k)] += open[1][c] * weight(i, k) * weight(i, k);
+        if (i > 0) add_face(wx * open[0][c], i - 1, k, i, k);
+        if (k > 0) add_face(wz * open[2][c], i, k - 1, i, k);
+      }
+    // Nothing odd is in the middle: its place stands alone, and has no part in a field.
+    const Eigen::VectorXd scale = (volume.array() > 0).select(volume, 1).cwiseInverse().cwiseSqrt();
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> found(scale.asDiagonal() * differences * scale.asDiagonal());
+    modes_[kind] = scale.asDiagonal() * found.eigenvectors();
+    for (Eigen::Index m = 0; m < quarter_; ++m)
+      rates_[kind * std::size_t(quarter_) + std::size_t(m)] = std::max(found.eigenvalues()[m], 0.0);
+  }
+}
+
+void SectionModes::to_modes(const Field& cells, Matrix& work, Matrix& modes) const {
+  const auto [nx, ny, nz] = grid_.cells;
+  for (int j = 0; j < ny; ++j)
+    for (int k = 0; k < half_z_; ++k) {
+      const double* front = cells.data() + grid_.index(0, j, k);
+      const double* back = cells.data() + grid_.index(0, j, nz - 1 - k);
+      double* to = work.data() + j * work.cols() + k * half_x_;
+      for (int i = 0; i < half_x_; ++i) {
+        const int mirror = nx - 1 - i;
+        const double scale =
+            share(false, i, nx) * share(false, k, nz) * (i == mirror ? 0.5 : 1.0) * (k == nz - 1 - k ? 0.5 : 1.0);
+        const double a = front[i] + front[mirror], b = back[i] + back[mirror];
+        const double c = front[i] - front[mirror], d = back[i] - back[mirror];
+        to[i] = scale * (a + b);
+        to[i + quarter_] = scale * (c + d);
+        to[i + 2 * quarter_] = scale * (a - b);
+        to[i + 3 * quarter_] = scale * (c - d);
+      }
+    }
+  for (std::size_t kind = 0; kind < 4; ++kind) {
+    const auto first = Eigen::Index(kind) * quarter_;
+    modes.middleCols(first, quarter_).noalias() = work.middleCols(first, quarter_) * modes_[kind];
+  }
+}
+
+void SectionModes::to_cells(const Matrix& modes, Matrix& work, Field& cells) const {
+  for (std::size_t kind = 0; kind < 4; ++kind) {
+    const auto first = Eigen::Index(kind) * quarter_;
+    work.middleCols(first, quarter_).noalias() = modes.middleCols(first, quarter_) * modes_[kind].transpose();
+  }
+  const auto [nx, ny, nz] = grid_.cells;
+  for (int j = 0; j < ny; ++j)
+    for (int k = 0; k < half_z_; ++k) {
+      double* front = cells.data() + grid_.index(0, j, k);
+      double* back = cells.data() + grid_.index(0, j, nz - 1 - k);
+      const double* from = work.data() + j * work.cols() + k * half_x_;
+      for (int i = 0; i < half_x_; ++i) {
+        const double scale = share(false, i, nx) * share(false, k, nz);
+        const double a = from[i] + from[i + 2 * quarter_], b = from[i] - from[i + 2 * quarter_];
+        const double c = from[i + quarter_] + from[i + 3 * quarter_], d = from[i + quarter_] - from[i + 3 * quarter_];
+        front[i] = scale * (a + c);
+        front[nx - 1 - i] = scale * (a - c);
+        back[i] = scale * (b + d);
+        back[nx - 1 - i] = scale * (b - d);
+      }
+    }
+}
+
+}  // namespace polybed::core
