@@ -45,7 +45,9 @@ void draw_in(core::Scene& scene, std::size_t axis, int cells) {
   for (core::Jet& jet : scene.jets) draw(jet);
   for (core::Feed& feed : scene.feeds) draw(feed);
   for (core::Layer& layer : scene.layers) draw(layer);
-  column.outlet = core::Outlet::screen;  // one that is left of a few cells may be fed shut
+  const bool fed_above = std::any_of(scene.feeds.begin(), scene.feeds.end(),
+                                     [](const core::Feed& feed) { return feed.at == core::FeedEnd::top; });
+  if (fed_above) column.outlet = core::Outlet::screen;  // one that is left of a few cells may be fed shut
 }
 
 int fewer(int cells, double share, int least) {

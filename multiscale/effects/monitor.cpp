@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
+#include "core/numerics/metric.hpp"
 #include "core/output/fields.hpp"
 #include "dem/model.hpp"
 #include "fluid/vorticity.hpp"
@@ -102,7 +104,8 @@ std::vector<std::string> Monitor::look(const tfm::Model& model) {
                               Vec3{vorticity[0][c], vorticity[1][c], vorticity[2][c]},
                               {},
                               {grid.centre(0, i), grid.centre(1, j), grid.centre(2, k)},
-                              model.time()};
+                              model.time(),
+                              grid.metric ? std::uint64_t(std::llround(1000 * grid.metric->volume[c])) : 1};
           latest_.see(met);
           seen_.see(met);
         }

@@ -31,10 +31,11 @@ std::string per_cent(std::uint64_t part, std::uint64_t whole) {
 
 void Observed::add(double share, const Encounter& met, double tolerance) {
   if (bins.empty()) bins.assign(multiscale::bins, 0);
-  ++count;
-  ++bins[bin_of(share)];
-  above += share > tolerance;
-  if (count > 1 && share <= greatest) return;
+  const bool first = count == 0;
+  count += met.weight;
+  bins[bin_of(share)] += met.weight;
+  if (share > tolerance) above += met.weight;
+  if (!first && share <= greatest) return;
   greatest = share;
   time = met.time;
   place = met.place;
@@ -90,11 +91,11 @@ void Neglected::see(const Encounter& met) {
       observed_[n].add(*share, met, tolerance_);
       sum += *share;
     } else {
-      ++observed_[n].outside;
+      observed_[n].outside += met.weight;
       whole = false;
     }
   }
-  whole ? observed_.back().add(sum, met, tolerance_) : void(++observed_.back().outside);
+  whole ? observed_.back().add(sum, met, tolerance_) : void(observed_.back().outside += met.weight);
 }
 
 void Neglected::gather(const core::Ranks* ranks) {

@@ -25,6 +25,7 @@ struct Encounter {
       spin;                       ///< of a particle, 1/s; of a continuum not known: it differs by half the vorticity
   std::array<double, 3> place{};  ///< m
   double time = 0;                ///< s
+  std::uint64_t weight = 1;       ///< of a cell of a round column the thousandths of a whole one that it is
 };
 
 /// One neglected force, or their sum.
@@ -32,7 +33,7 @@ struct Observed {
   std::string effect;
   bool of_all = false;              ///< the sum of all effects
   double bound = 0;                 ///< that it was left out with
-  std::uint64_t count = 0;          ///< encounters within the closure's range
+  std::uint64_t count = 0;          ///< encounters within the closure's range, by weight as the next two
   std::uint64_t outside = 0;        ///< beyond it: not counted otherwise
   std::uint64_t above = 0;          ///< beyond the tolerance
   double greatest = 0, time = 0;    ///< share of the weight, and when

@@ -75,6 +75,24 @@ TEST(Neglected, EvaluatesTheClosureOfTheChoice) {
   EXPECT_EQ(neglected.sum().outside, 1U);
 }
 
+// Of the cells of a round column as much counts as of their volume is open: 0.4 of 2.4 of them is beyond.
+TEST(Neglected, WeighsWhatIsMet) {
+  core::Scene scene = core::parse_case(text, "case.toml", {}, all_roles(), size_classes);
+  Neglected neglected(scene, "tfm");
+  Encounter met;
+  met.slip = {0, 1e-3, 0};
+  for (const std::uint64_t weight : {1000, 1000}) {
+    met.weight = weight;
+    neglected.see(met);
+  }
+  met.vorticity = {0, 0, 500};
+  met.weight = 400;
+  neglected.see(met);
+  EXPECT_EQ(neglected.sum().count, 2400U);
+  EXPECT_EQ(neglected.sum().above, 400U);
+  EXPECT_GT(neglected.sum().greatest, 0);
+}
+
 // Where all that is met lies beyond the laws, nothing is known of their sum: it is not 0.
 TEST(Neglected, IsNotKeptWhereNothingCouldBeEvaluated) {
   Neglected neglected(core::parse_case(text, "case.toml", {}, all_roles(), size_classes), "tfm");
