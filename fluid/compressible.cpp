@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/numerics/metric.hpp"
 #include "core/numerics/ranks.hpp"
 #include "fluid/density.hpp"
 #include "fluid/pressure.hpp"
@@ -92,18 +93,22 @@ void Compressible::set_pressure_rate(const Interphase& solids, FluidState& fluid
   const LocalDensity density{own.density.data()};
   const double* rho = own.density.data();
   Field& rate = own.pressure_rate;
-  core::for_each_row(grid_, [&](Index begin, Index end) {
-    for (Index c = begin; c < end; ++c) {
-      double inflow = 0;  // -div(rho_f Q)/rho_f
-      for (int axis = 0; axis < grid_.dimensions; ++axis) {
-        const Index s = grid_.stride(axis);
-        const double* q = own.flux[std::size_t(axis)].data();
-        inflow += (density.on_face(c, s) * q[c] - density.on_face(c + s, s) * q[c + s]) /
-                  (grid_.spacing[std::size_t(axis)] * rho[c]);
+  core::with_metric(grid_, [&](const auto& metric) {
+    core::for_each_row(grid_, [&](Index begin, Index end) {
+      for (Index c = begin; c < end; ++c) {
+        double inflow = 0;  // -div(rho_f Q)/rho_f
+        for (int axis = 0; axis < grid_.dimensions; ++axis) {
+          const auto a = std::size_t(axis);
+          const Index s = grid_.stride(axis);
+          const double* q = own.flux[a].data();
+          inflow += (metric.open(a, c) * density.on_face(c, s) * q[c] -
+                     metric.open(a, c + s) * density.on_face(c + s, s) * q[c + s]) *
+                    metric.per_volume(c) / (grid_.spacing[a] * rho[c]);
+        }
+        for (const Field& phi_rate : solids.fraction_rate) inflow += phi_rate[std::size_t(c)];  // - d(eps)/dt
+        rate[std::size_t(c)] = inflow / own.kappa[std::size_t(c)];
       }
-      for (const Field& phi_rate : solids.fraction_rate) inflow += phi_rate[std::size_t(c)];  // - d(eps)/dt
-      rate[std::size_t(c)] = inflow / own.kappa[std::size_t(c)];
-    }
+    });
   });
 }
 

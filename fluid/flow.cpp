@@ -210,21 +210,23 @@ void Flow::hold() {
 /// The last is taken between faces and cell, so that with div J it is div(rho_f Q): what leaves a cell enters the next.
 void Flow::add_compression(double dt) {
   const LocalDensity density{fluid_.compression.density.data()};
-  core::for_each_row(grid_, [&](Index begin, Index end) {
-    for (Index f = begin; f < end; ++f) {
-      const auto c = std::size_t(f);
-      const double here = density.cells[c];
-      double carried = 0;  // (Q.grad) rho_f, kg/(m3 s)
-      for (int axis = 0; axis < grid_.dimensions; ++axis) {
-        const auto a = std::size_t(axis);
-        const Index s = grid_.stride(axis);
-        carried += (own_flux_[a][c + std::size_t(s)] * (density.on_face(f + s, s) - here) -
-                    own_flux_[a][c] * (density.on_face(f, s) - here)) /
-                   grid_.spacing[a];
+  core::with_metric(grid_, [&](const auto& metric) {
+    core::for_each_row(grid_, [&](Index begin, Index end) {
+      for (Index f = begin; f < end; ++f) {
+        const auto c = std::size_t(f);
+        const double here = density.cells[c];
+        double carried = 0;  // (Q.grad) rho_f, kg/(m3 s)
+        for (int axis = 0; axis < grid_.dimensions; ++axis) {
+          const auto a = std::size_t(axis);
+          const Index s = grid_.stride(axis);
+          carried += (metric.open(a, f + s) * own_flux_[a][c + std::size_t(s)] * (density.on_face(f + s, s) - here) -
+                      metric.open(a, f) * own_flux_[a][c] * (density.on_face(f, s) - here)) /
+                     grid_.spacing[a];
+        }
+        shift_[c] = metric.volume(f) * fluid_.compression.kappa[c] / (dt * dt);
+        source_[c] -= metric.per_volume(f) * carried / (here * dt);
       }
-      shift_[c] = fluid_.compression.kappa[c] / (dt * dt);
-      source_[c] -= carried / (here * dt);
-    }
+    });
   });
 }
 

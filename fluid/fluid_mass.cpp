@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/numerics/metric.hpp"
 #include "core/numerics/ranks.hpp"
 #include "fluid/density.hpp"
 
@@ -18,8 +19,10 @@ MassFlow mass_flow(const core::Grid& grid, const Boundaries& boundaries, const F
   const double area = grid.spacing[0] * grid.spacing[2];
   const auto through = [&](int side) {
     double sum = 0;
-    for_each_boundary_row(grid, 1, side, [&](Index begin, Index end) {
-      for (Index c = begin; c < end; ++c) sum += density.on_face(c, s) * own_flux[std::size_t(c)];
+    core::with_metric(grid, [&](const auto& metric) {
+      for_each_boundary_row(grid, 1, side, [&](Index begin, Index end) {
+        for (Index c = begin; c < end; ++c) sum += metric.open(1, c) * density.on_face(c, s) * own_flux[std::size_t(c)];
+      });
     });
     return core::sum_of_ranks(grid, sum) * area;
   };
@@ -30,7 +33,8 @@ double fluid_mass(const core::Grid& grid, const FluidState& fluid) {
   double sum = 0, lost = 0;
   core::for_each_row(grid, [&](Index begin, Index end) {
     for (auto c = std::size_t(begin); c < std::size_t(end); ++c) {
-      const double term = fluid.voidage[c] * fluid.compression.density[c] - lost, next = sum + term;
+      const double open = grid.metric ? grid.metric->volume[c] : 1.0;
+      const double term = open * fluid.voidage[c] * fluid.compression.density[c] - lost, next = sum + term;
       lost = (next - sum) - term;
       sum = next;
     }

@@ -44,7 +44,7 @@ class Preconditioner {
   enum class Place { inside, outlet, screen };
   template <class Density>
   void build(const Fields& fields, const Density& density, int axis, const core::Box& box, Place place);
-  [[nodiscard]] double viscous_diagonal(int axis) const;
+  [[nodiscard]] double viscous_diagonal(int axis, core::Index face) const;
   void invert_face(const Fields& fields, double fluid_density, int axis, core::Index face);
   void respond(const Fields& fields, double fluid_density, int axis, core::Index face);
   template <class Rows>

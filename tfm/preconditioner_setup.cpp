@@ -50,6 +50,7 @@ bool Preconditioner::setup(const Fields& fields, double c) {
   if (fields.fluid.compression.present()) {
     diagonal_ = fields.fluid.compression.kappa;
     for (double& d : diagonal_) d *= c;
+    core::weigh_cells(grid, diagonal_);
   }
   const auto faces = [](const core::FaceField& f) { return std::array<std::span<const double>, 3>{f[0], f[1], f[2]}; };
   return solver_.setup(faces(coupling_[0]), faces(coupling_[1]), faces(coupling_[2]), faces(coupling_[3]), slope_,
@@ -77,14 +78,22 @@ void Preconditioner::build(const Fields& fields, const Density& density, int axi
   });
 }
 
-/// Diagonal of -div(grad U + grad U^T - 2/3 div U I) for the velocity along an axis, 1/m2. The viscosity of the solids
+/// Diagonal of -div(grad U + grad U^T - 2/3 div U I) for the velocity on a face, 1/m2. The viscosity of the solids
 /// enters S by its diagonal, as if the neighbours stood still.
-double Preconditioner::viscous_diagonal(int axis) const {
+double Preconditioner::viscous_diagonal(int axis, Index face) const {
+  const core::Grid& grid = constants_.grid;
   double sum = 0;
-  for (int d = 0; d < constants_.grid.dimensions; ++d) {
-    const double h = constants_.grid.spacing[std::size_t(d)];
-    sum += (d == axis ? 8.0 / 3 : 2.0) / (h * h);
-  }
+  core::with_metric(grid, [&](const auto& metric) {
+    const Index s = grid.stride(axis);
+    for (int d = 0; d < grid.dimensions; ++d) {
+      const auto b = std::size_t(d);
+      const Index t = grid.stride(d);
+      const double open =
+          metric.open(b, face - s) + metric.open(b, face) + metric.open(b, face + t - s) + metric.open(b, face + t);
+      sum += (d == axis ? 8.0 / 3 : 2.0) * 0.25 * open * metric.per_volume_on(std::size_t(axis), face) /
+             (grid.spacing[b] * grid.spacing[b]);
+    }
+  });
   return sum;
 }
 
@@ -140,7 +149,7 @@ void Preconditioner::invert_face(const Fields& fields, double fluid_density, int
     system.row(row(n)) += on_flux * fluid_velocity.transpose();
     system(row(n), row(j)) -= on_flux;
     if (fields.stress.viscous()) {
-      const double rate = face_mean(fields.stress.viscosity.data(), face, stride) * viscous_diagonal(axis) * phi /
+      const double rate = face_mean(fields.stress.viscosity.data(), face, stride) * viscous_diagonal(axis, face) * phi /
                           (phi + diffusion_floor(constants_, j)) / constants_.density[j];
       system(row(j), row(j)) += rate;
       system(row(n), row(j)) += phi * rate;

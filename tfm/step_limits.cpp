@@ -45,16 +45,29 @@ double courant_rate(const core::Grid& grid, const core::FaceField& velocity, Ind
   return rate;
 }
 
+/// The greatest open face of a cell over its open volume: 1 of whole cells, more of what a round wall leaves of one.
+double narrowness(const core::Grid& grid, Index c) {
+  double most = 0;
+  core::with_metric(grid, [&](const auto& metric) {
+    for (std::size_t a = 0; a < std::size_t(grid.dimensions); ++a)
+      most = std::max({most, metric.open(a, c), metric.open(a, c + grid.stride(int(a)))});
+    most *= metric.per_volume(c);
+  });
+  return most;
+}
+
 }  // namespace
 
 std::vector<TimeScale> time_scales(const Constants& constants, const Fields& fields, double kinematic_viscosity,
                                    bool split) {
   const core::Grid& grid = constants.grid;
   const double h = grid.smallest_spacing();
-  FastestRate convection, acoustics, damping, drag, viscous, temperature;
+  FastestRate convection, acoustics, damping, drag, viscous, viscosity, temperature;
   core::for_each_row(grid, [&](Index begin, Index end) {
     for (Index c = begin; c < end; ++c) {
       const auto at = std::size_t(c);
+      const double narrow = narrowness(grid, c);
+      if (!(narrow > 0)) continue;
       double on_fluid = 0, on_solids = 0, solids_density = 0;
       SlowDrag slow(fields.fluid.voidage[at], constants.fluid.density);
       convection.see(courant_rate(grid, fields.fluid.velocity, c), c);
@@ -66,13 +79,14 @@ std::vector<TimeScale> time_scales(const Constants& constants, const Fields& fie
         on_solids = std::max(on_solids, b / constants.density[j]);
         slow.add(phi, b, constants.density[j]);
         if (fields.stress.viscous())
-          viscous.see(4 * grid.dimensions * fields.stress.viscosity[at] / (constants.density[j] * h * h), c);
+          viscous.see(4 * grid.dimensions * narrow * fields.stress.viscosity[at] / (constants.density[j] * h * h), c);
       }
+      viscosity.see(4 * grid.dimensions * narrow * kinematic_viscosity / (h * h), c);
       drag.see(split ? slow.rate() : on_solids + on_fluid, c);
       for (const core::Field& decay : fields.granular.decay) temperature.see(decay[at], c);
       if (!fields.stress.present()) continue;
-      acoustics.see(std::sqrt(std::max(fields.stress.slope[at], 0.0) / solids_density) / h, c);
-      damping.see(2 * grid.dimensions * fields.stress.damping[at] / (solids_density * h * h), c);
+      acoustics.see(std::sqrt(narrow * std::max(fields.stress.slope[at], 0.0) / solids_density) / h, c);
+      damping.see(2 * grid.dimensions * narrow * fields.stress.damping[at] / (solids_density * h * h), c);
     }
   });
   std::vector<TimeScale> scales{convection.scale("convection"), drag.scale("drag")};
@@ -82,8 +96,7 @@ std::vector<TimeScale> time_scales(const Constants& constants, const Fields& fie
   }
   if (!fields.granular.decay.empty()) scales.push_back(temperature.scale("granular temperature"));
   if (fields.stress.viscous()) scales.push_back(viscous.scale("solids viscosity"));
-  if (kinematic_viscosity > 0)
-    scales.push_back({"viscosity", h * h / (4 * grid.dimensions * kinematic_viscosity), grid.index(0, 0)});
+  if (kinematic_viscosity > 0) scales.push_back(viscosity.scale("viscosity"));
   return scales;
 }
 
