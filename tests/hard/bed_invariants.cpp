@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "core/numerics/metric.hpp"
 #include "fluid/boundaries.hpp"
 #include "measures/bed.hpp"
 #include "tfm/observers.hpp"
@@ -23,12 +24,13 @@ double thrust(const tfm::Model& model, const tfm::Fields& fields, const measures
     return eps;
   };
   const core::Grid& grid = model.constants().grid;
-  double flux = 0, area = 0;
-  fluid::for_each_boundary_row(grid, 1, 0, [&](Index begin, Index end) {
-    for (auto c = std::size_t(begin); c < std::size_t(end); ++c) flux += fields.fluid.flux[1][c];
-    area += double(end - begin);
+  double flux = 0;
+  core::with_metric(grid, [&](const auto& metric) {
+    fluid::for_each_boundary_row(grid, 1, 0, [&](Index begin, Index end) {
+      for (Index c = begin; c < end; ++c) flux += metric.open(1, c) * fields.fluid.flux[1][std::size_t(c)];
+    });
   });
-  flux /= area;
+  flux /= core::open_cells_of_layer(grid);
   return model.constants().fluid.density * flux * flux * (1 / voidage(0) - 1 / voidage(profile.fraction[0].size() - 1));
 }
 
