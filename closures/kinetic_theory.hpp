@@ -11,6 +11,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <numbers>
 
 namespace polybed::closures {
@@ -151,6 +152,13 @@ constexpr double dilute_viscosity = 5 * 1.7724538509055160273 / 96;
   for (int n = 0; n < 7; ++n) s -= (((a * s + b) * s - p) * s * s - c) / (((4 * a * s + 3 * b) * s - 2 * p) * s);
   constexpr double least_slip = 1e-200;  // of less the powers of s are lost
   return c > least_slip ? s : without_slip;
+}
+
+/// How that root s falls as b grows, -ds/db = s^3/(4 a s^3 + 3 b s^2 - 2 p s), with the balance put in: s^4/(a s^4 +
+/// p s^2 + 3 c). 0 where s is 0.
+[[nodiscard]] inline double fall_of_balanced_speed(double a, double p, double c, double s) {
+  const double square = s * s, least = std::numeric_limits<double>::min();
+  return square * square / (a * square * square + p * square + 3 * c + least);
 }
 
 /// Friction of a wall on solids that slip along it at a speed of 1 m/s, Pa s/m, Johnson and Jackson (J. Fluid Mech.

@@ -34,8 +34,10 @@ struct Constants {
 struct SolidsStress {
   core::Field pressure;  ///< p_s with its bulk-viscous part, Pa
   core::Field slope;     ///< dp_s/dphi, Pa
-  core::Field damping;   ///< lambda = alpha rho_s c_s h of the bulk-viscous part, Pa s
-  core::Field contact;   ///< p_f: the part of friction alone, Pa; empty if nothing asks for it
+  /// -dp_s/d(phi div U), Pa s: alpha rho_s c_s h of the bulk-viscous part, and what compression does to p_s by way of a
+  /// granular temperature that balances in each cell.
+  core::Field damping;
+  core::Field contact;  ///< p_f: the part of friction alone, Pa; empty if nothing asks for it
   core::FaceField
       upwind_work;  ///< jump of pressure across a face that takes the work of its flux, Pa; empty along axes without
   core::Field viscosity;            ///< mu_s/phi, Pa s; empty where the solids have no shear viscosity

@@ -32,6 +32,7 @@ Preconditioner::Preconditioner(const Constants& constants, const fluid::Boundari
       rows_(constants.species() + 1),
       moves_(constants.species(), true),
       slope_(core::make_field(constants.grid)),
+      elastic_(slope_.size(), 1.0),
       fraction_residual_(constants.species(), core::make_field(constants.grid)),
       passed_residual_(constants.openings.present() ? constants.species() : 0, core::make_field(constants.grid)),
       pressure_residual_(core::make_field(constants.grid)),
@@ -146,7 +147,7 @@ void Preconditioner::elliptic_sources() {
     for (auto c = std::size_t(begin); c < std::size_t(end); ++c) {
       source_p_[c] = pressure_residual_[c] - source_p_[c];
       source_s_[c] = -source_s_[c];
-      for (const Field& residual : fraction_residual_) source_s_[c] += residual[c];
+      for (const Field& residual : fraction_residual_) source_s_[c] += elastic_[c] * residual[c];
     }
   });
   core::weigh_cells(grid, source_p_);

@@ -6,10 +6,12 @@
 //                 c dU_j where the species is held
 //          row J: c dJ + sum phi_j b_j (1/rho_f - 1/rho_j)(dU_f - dU_j)
 //          R_q = S^-1 (1/rho_j.., B),   R_g = S^-1 (1/(phi rho_j).., sum phi_j/(phi rho_j))
-//   cell:  A (dp, q) = (kappa c dp, c q/L) - div( C grad(dp, q) ),  q = L sum dphi_j,  L = p_s' + lambda c
-//          (kappa = 0 if the fluid is incompressible); inverted approximately by core::BlockSolver
+//   cell:  A (dp, q) = (kappa c dp, c q/L) - div( C grad(dp, q) ),  L = p_s' + lambda c
+//          (kappa = 0 if the fluid is incompressible); inverted approximately by core::BlockSolver.
+//          q = p_s' sum dphi_j - lambda div sum phi_j v_j is the change of p_s: lambda is pressed by motion, not by
+//          r_phi
 //   apply: 1. v = S^-1 r on faces
-//          2. A (dp, q) = ( r_p - div v_J , sum r_phi_j - div sum phi_j v_j )
+//          2. A (dp, q) = ( r_p - div v_J , (p_s'/L) sum r_phi_j - div sum phi_j v_j )
 //          3. v -= R_q grad dp + R_g grad q
 //          4. dphi_j = (r_phi_j - div(phi_j v_j))/c, and (r + phi_j v_j)/c for what crosses an open end,
 //             dtheta_j = r_theta_j/(c + decay), where theta_j is an unknown
@@ -68,7 +70,7 @@ class Preconditioner {
   std::array<std::vector<core::Field>, 3> response_stress_;    ///< R_g by axis and row
   std::array<std::vector<core::Field>, 3> fraction_;           ///< phi_j on faces
   std::array<core::FaceField, 4> coupling_;                    ///< C11, C12, C21, C22
-  core::Field slope_;                                          ///< L
+  core::Field slope_, elastic_;                                ///< L; p_s'/L, 1 where both are 0
   core::Field diagonal_;                                       ///< kappa c; empty if the fluid is incompressible
   std::array<std::vector<core::Field>, 3> face_value_;         ///< residuals, then corrections, by row
   std::vector<core::Field> fraction_residual_, passed_residual_;

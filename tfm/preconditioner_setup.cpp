@@ -43,8 +43,10 @@ bool Preconditioner::setup(const Fields& fields, double c) {
   for (Field& row : temperature_row_)
     for (double& rate : row) rate += c;
   if (fields.stress.present())
-    for (std::size_t cell = 0; cell < slope_.size(); ++cell)
+    for (std::size_t cell = 0; cell < slope_.size(); ++cell) {
       slope_[cell] = fields.stress.slope[cell] + fields.stress.damping[cell] * c;
+      elastic_[cell] = slope_[cell] > 0 ? fields.stress.slope[cell] / slope_[cell] : 1;
+    }
   boundaries_.fill_cells(slope_);
   for (std::size_t cell = 0; grid.metric && cell < slope_.size(); ++cell) slope_[cell] *= grid.metric->per_volume[cell];
   if (fields.fluid.compression.present()) {

@@ -36,6 +36,7 @@ struct KineticRows {
   Row viscosity;                             ///< mu_j/(phi s), kg/m2, s = sqrt theta
   Row compression, shear, loss, drag, slip;  ///< of theta, s, s^3, theta, 1/s in the balance of energy, W/m3
   Row speed;                                 ///< s, m/s
+  Row speed_fall;                            ///< -ds/dcompression, m4 s/kg; 0 where theta is an unknown
 };
 
 /// Least solids fraction at which collisions are evaluated: the mean free path is 12 diameters there, and what it makes
@@ -135,13 +136,17 @@ inline void balance_speed(KineticRows& rows, double* temperature) {
     const double s =
         closures::balanced_speed(rows.loss[c], rows.drag[c] + rows.compression[c], rows.shear[c], rows.slip[c]);
     rows.speed[c] = s;
+    rows.speed_fall[c] = closures::fall_of_balanced_speed(rows.loss[c], rows.shear[c], rows.slip[c], s);
     temperature[c] = s * s;
   }
 }
 
 /// The speed of a temperature that is an unknown.
 inline void take_speed(KineticRows& rows, const double* temperature) {
-  for (std::size_t c = 0; c < rows.cells; ++c) rows.speed[c] = std::sqrt(std::max(temperature[c], 0.0));
+  for (std::size_t c = 0; c < rows.cells; ++c) {
+    rows.speed[c] = std::sqrt(std::max(temperature[c], 0.0));
+    rows.speed_fall[c] = 0;
+  }
 }
 
 /// What the equation of the granular temperature takes from collisions.
@@ -169,15 +174,21 @@ inline void set_temperature_rate(const KineticRows& rows, const Grain& grain, co
   }
 }
 
-/// Adds a species to pressure, its slope and viscosity of the solids.
-inline void add_stress(const KineticRows& rows, const double* share, double density, double* pressure, double* slope,
-                       double* viscosity) {
+/// Where a species' stress is added.
+struct StressRows {
+  double *pressure, *slope, *damping, *viscosity;
+};
+
+/// Adds a species to pressure, its slope, its answer to compression by way of theta, and viscosity of the solids.
+inline void add_stress(const KineticRows& rows, const double* share, double density, const StressRows& to) {
   for (std::size_t c = 0; c < rows.cells; ++c) {
     const double one = 1 + rows.collisions[c], rise = 1 + rows.collisions[c] * (2 + rows.growth[c]);
     const double energy = rows.fade[c] * share[c] * density * rows.speed[c] * rows.speed[c];
-    pressure[c] += rows.solids[c] * energy * one * rows.pressure_ratio[c];
-    slope[c] += energy * (rise * rows.pressure_ratio[c] + rows.phi[c] * one * rows.pressure_ratio_slope[c]);
-    viscosity[c] += share[c] * rows.viscosity[c] * rows.speed[c];
+    to.pressure[c] += rows.solids[c] * energy * one * rows.pressure_ratio[c];
+    to.slope[c] += energy * (rise * rows.pressure_ratio[c] + rows.phi[c] * one * rows.pressure_ratio_slope[c]);
+    const double pressed = rows.fade[c] * density * one * rows.pressure_ratio[c];  // p/(phi theta), compression/div U
+    to.damping[c] += 2 * share[c] * pressed * pressed * rows.speed[c] * rows.speed_fall[c];
+    to.viscosity[c] += share[c] * rows.viscosity[c] * rows.speed[c];
   }
 }
 

@@ -97,7 +97,10 @@ void FrictionalStress::evaluate(Fields& fields) {
     std::copy(fields.stress.pressure.begin(), fields.stress.pressure.end(), fields.stress.contact.begin());
     boundaries_.fill_cells(fields.stress.contact);
   }
-  if (bulk_viscosity_ > 0) add_bulk_viscosity(fields);
+  if (bulk_viscosity_ > 0)
+    add_bulk_viscosity(fields);
+  else
+    std::fill(fields.stress.damping.begin(), fields.stress.damping.end(), 0.0);  // to which collisions add
   boundaries_.fill_cells(fields.stress.pressure);
 }
 

@@ -161,8 +161,9 @@ void KineticStress::add_species(Fields& fields, std::size_t species, Index begin
   } else {
     core::in_vectors<balance_speed>(rows_, temperature);
   }
-  core::in_vectors<add_stress>(rows_, share, grain.density, &fields.stress.pressure[row], &fields.stress.slope[row],
-                               &fields.stress.viscosity[row]);
+  core::in_vectors<add_stress>(rows_, share, grain.density,
+                               {&fields.stress.pressure[row], &fields.stress.slope[row], &fields.stress.damping[row],
+                                &fields.stress.viscosity[row]});
   for (std::size_t c = 0; c < rows_.cells && !fields.stress.wall.empty(); ++c)
     fields.stress.wall[row + c] += share[c] * closures::wall_collisions(rows_.speed[c] * rows_.speed[c], specularity_,
                                                                         grain.density, 1, rows_.g0[c], max_packing_);

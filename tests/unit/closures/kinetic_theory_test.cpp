@@ -164,6 +164,19 @@ TEST(KineticTheory, BalancedSpeedReachesRoundOffFromItsStart) {
   }
 }
 
+TEST(KineticTheory, BalancedSpeedFallsAsItsFormulaSays) {
+  EXPECT_DOUBLE_EQ(fall_of_balanced_speed(2, 2, 1, 1), 1.0 / 7);  // 2 + 1 = 2 + 1: 1/(4*2 + 3*1 - 2*2), by hand
+  EXPECT_EQ(fall_of_balanced_speed(2, 0, 0, 0), 0);
+  for (const double b : {-10.0, 0.0, 3.0})
+    for (const double p : {1e-4, 2.0})
+      for (const double c : {0.0, 1.0}) {
+        constexpr double change = 1e-5;  // the central difference is off by its square, the roots by 1e-13 over it
+        const double s = balanced_speed(1, b, p, c);
+        const double slope = (balanced_speed(1, b - change, p, c) - balanced_speed(1, b + change, p, c)) / (2 * change);
+        EXPECT_NEAR(fall_of_balanced_speed(1, p, c, s), slope, 1e-5 * slope) << b << " " << p << " " << c;
+      }
+}
+
 TEST(KineticTheory, RootBoundIsAboveTheRootByAtMostSixPercent) {
   for (double power : {1.0 / 3, 0.25})
     for (double x = 1e-290; x < 1e290; x *= 1.0173) {  // 1.0612, 1.0583 are the largest of a mantissa for its logarithm
