@@ -4,6 +4,7 @@
 #include <sunlinsol/sunlinsol_spgmr.h>
 
 #include <algorithm>
+#include <cmath>
 #include <exception>
 #include <utility>
 
@@ -41,6 +42,8 @@ class ImplicitIntegrator : public Integrator {
   StepReport step(double t_stop) override {
     const double stop = t_stop - origin_;
     double t = since_origin_;
+    const long failed = newton_failures();
+    let_steps_grow();
     int flag = try_step(stop, t);
     // Rates that relax fast carry the round-off of their velocities, and a first guess by them over a long step is far
     // off. The library gives up after ten errors too large; its own first step is short enough.
@@ -61,6 +64,7 @@ class ImplicitIntegrator : public Integrator {
     IDAGetLastStep(memory_, &r.step);
     IDAGetCurrentStep(memory_, &r.next_step);
     IDAGetLastOrder(memory_, &r.order);
+    hold_steps(r.step, newton_failures() - failed);
     last_step_ = r.step;
     ++closed_.steps;
     require_success(IDAGetEstLocalErrors(memory_, error_), "IDAGetEstLocalErrors");
@@ -140,6 +144,37 @@ class ImplicitIntegrator : public Integrator {
     return excess_ > price;
   }
 
+  [[nodiscard]] long newton_failures() const {
+    long failures = 0;
+    IDAGetNumNonlinSolvConvFails(memory_, &failures);
+    return failures;
+  }
+
+  /// Where errors are small the library doubles steps until Newton's method fails, takes a quarter, and doubles again:
+  /// most of the work is for nothing. After a failure on a step longer than the last none gets longer than that for a
+  /// while, twice as long after each such failure. Steps stay equal meanwhile, without which the order stays 1.
+  /// \param failures  of Newton's method in this step, each of which quarters it
+  void hold_steps(double step, long failures) {
+    constexpr long least = 25, most = 400;  // steps
+    if (held_ > 0) --held_;
+    if (failures > 0 && last_step_ > 0 && std::ldexp(step, 2 * int(failures)) > 1.5 * last_step_) {
+      longest_ = last_step_;
+      holds_ = std::clamp(2 * holds_, least, most);
+      held_ = holds_;
+    } else if (step > 1.5 * longest_) {
+      holds_ = 0;
+    }
+  }
+
+  /// At the end of the step to come.
+  void let_steps_grow() {
+    double step = 0;
+    IDAGetCurrentStep(memory_, &step);
+    constexpr double by_doubling = 2, never = 1e9;  // what errors must allow, times this step
+    const bool free = held_ == 0 || 2 * step <= 1.01 * longest_;
+    require_success(IDASetEtaFixedStepBounds(memory_, 1, free ? by_doubling : never), "IDASetEtaFixedStepBounds");
+  }
+
   /// Where the residual cannot be taken at y + sigma v the library takes the solution so far, often 0, for a good one,
   /// and the guess of the step for its end: a failure that shortens the step, as others do.
   static int solve(SUNLinearSolver solver, SUNMatrix none, N_Vector x, N_Vector b, sunrealtype tolerance) {
@@ -152,6 +187,8 @@ class ImplicitIntegrator : public Integrator {
     y_.assign(start_);
     dydt_.assign(start_rates_);
     first_step_ = h0;
+    last_step_ = longest_ = 0;
+    held_ = holds_ = 0;
     time_ = origin_ = t;
     since_origin_ = 0;
     memory_ = IDACreate(context_);
@@ -212,6 +249,8 @@ class ImplicitIntegrator : public Integrator {
   // The library counts from the last restart: a first step must not be lost in the round-off of a late time.
   double origin_ = 0, since_origin_ = 0, time_ = 0, last_step_ = 0, first_step_ = 0;
   long iterations_ = 0, fewest_ = 0, excess_ = 0;  ///< of the linear solves since the preconditioner was made
+  double longest_ = 0;                             ///< that a step may be while steps are held, s
+  long held_ = 0, holds_ = 0;                      ///< steps for which they still are, and were at the last failure
   IntegratorStatistics closed_;
   std::exception_ptr kept_;
 };

@@ -137,5 +137,38 @@ TEST(Implicit, WhatFollowsARestartDependsOnItsArgumentsAlone) {
   }
 }
 
+/// x_i' = -k_i (x_i - cos(t/1000 + i)), solved without a preconditioner: a slow solution, so that errors allow long
+/// steps, and k_i from 1 to 1e4, so that longer steps need more vectors than the solver has.
+class UnpreparedDae : public DaeProblem {
+ public:
+  static constexpr std::size_t size = 400;
+  Rate residual(double t, std::span<const double> y, std::span<const double> dydt, std::span<double> r) override {
+    for (std::size_t i = 0; i < size; ++i)
+      r[i] = dydt[i] + std::pow(10, 4.0 * double(i) / double(size - 1)) * (y[i] - std::cos(1e-3 * t + double(i)));
+    return Rate::ok;
+  }
+  Rate setup(double, std::span<const double>, std::span<const double>, std::span<const double>, double) override {
+    return Rate::ok;
+  }
+  Rate precondition(double, std::span<const double> r, std::span<double> z, double, double) override {
+    std::copy(r.begin(), r.end(), z.begin());
+    return Rate::ok;
+  }
+};
+
+// Doubled until they fail, steps fail 19 times in 61, and solves take 1523 iterations.
+TEST(Implicit, DoesNotTryALengthAgainAtOnceThatNewtonFailedOn) {
+  UnpreparedDae problem;
+  const std::vector<double> ones(UnpreparedDae::size, 1.0), none(ones.size(), 0.0), atol(ones.size(), 1e-4);
+  std::vector<double> y;
+  for (std::size_t i = 0; i < ones.size(); ++i) y.push_back(std::cos(double(i)));
+  const auto integrator = make_implicit(problem, {.rtol = 1e-3, .atol = atol, .id = ones, .krylov_vectors = 30});
+  integrator->restart(0, y, none, 1e-6);
+  for (double t = 0; t < 10;) t = integrator->step(10).time;
+  const auto work = integrator->statistics();
+  EXPECT_LT(work.newton_failures, work.steps / 10);
+  EXPECT_LT(work.linear_iterations, 1200U);
+}
+
 }  // namespace
 }  // namespace polybed::core
