@@ -3,11 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
 #include "core/numerics/metric.hpp"
 #include "core/numerics/ranks.hpp"
+#include "core/vectors.hpp"
 #include "tfm/fast_drag.hpp"
 
 namespace polybed::tfm {
@@ -31,18 +33,46 @@ struct FastestRate {
   }
 };
 
-double courant_rate(const core::Grid& grid, const core::FaceField& velocity, Index c) {
-  double rate = 0;
-  core::with_metric(grid, [&](const auto& metric) {
-    for (int axis = 0; axis < grid.dimensions; ++axis) {
-      const auto a = std::size_t(axis);
-      const double* u = velocity[a].data();
-      const Index next = c + grid.stride(axis);
-      rate += metric.per_volume(c) *
-              std::max(metric.open(a, c) * std::abs(u[c]), metric.open(a, next) * std::abs(u[next])) / grid.spacing[a];
+constexpr Index most_together = 128;  ///< cells of a row that are looked at together
+using Rates = std::array<double, std::size_t(most_together)>;
+
+/// Raises the rates of a row of cells, 1/s, to those at which a phase crosses them.
+template <class Metric>
+void raise_to_crossing(const Metric& metric, const core::Grid& grid, const core::FaceField& velocity, Index begin,
+                       Index cells, Rates& rates) {
+  Rates own;
+  std::fill_n(own.begin(), cells, 0.0);
+  for (int axis = 0; axis < grid.dimensions; ++axis) {
+    const auto a = std::size_t(axis);
+    const double *u = velocity[a].data(), spacing = grid.spacing[a];
+    const Index s = grid.stride(axis);
+    for (Index n = 0; n < cells; ++n) {
+      const Index c = begin + n, next = c + s;
+      own[std::size_t(n)] += metric.per_volume(c) *
+                             std::max(metric.open(a, c) * std::abs(u[c]), metric.open(a, next) * std::abs(u[next])) /
+                             spacing;
     }
+  }
+  for (std::size_t n = 0; n < std::size_t(cells); ++n) rates[n] = std::max(rates[n], own[n]);
+}
+
+/// Calls body(begin, cells, rates) for all cells, a part of a row at a time, with the rate of the fastest phase in
+/// each.
+template <class Body>
+void for_each_part_of_rows(const core::Grid& grid, const Fields& fields, Body&& body) {
+  Rates rates;
+  core::with_metric(grid, [&]<class Metric>(const Metric& metric) {
+    core::for_each_row(grid, [&](Index begin, Index end) {
+      for (; begin < end; begin += most_together) {
+        const Index cells = std::min(end - begin, most_together);
+        std::fill_n(rates.begin(), cells, 0.0);
+        core::in_vectors<raise_to_crossing<Metric>>(metric, grid, fields.fluid.velocity, begin, cells, rates);
+        for (const core::FaceField& velocity : fields.solids.velocity)
+          core::in_vectors<raise_to_crossing<Metric>>(metric, grid, velocity, begin, cells, rates);
+        body(begin, cells, rates);
+      }
+    });
   });
-  return rate;
 }
 
 /// The greatest open face of a cell over its open volume: 1 of whole cells, more of what a round wall leaves of one.
@@ -63,17 +93,17 @@ std::vector<TimeScale> time_scales(const Constants& constants, const Fields& fie
   const core::Grid& grid = constants.grid;
   const double h = grid.smallest_spacing();
   FastestRate convection, acoustics, damping, drag, viscous, viscosity, temperature;
-  core::for_each_row(grid, [&](Index begin, Index end) {
-    for (Index c = begin; c < end; ++c) {
+  for_each_part_of_rows(grid, fields, [&](Index begin, Index cells, const Rates& crossing) {
+    for (Index n = 0; n < cells; ++n) {
+      const Index c = begin + n;
       const auto at = std::size_t(c);
       const double narrow = narrowness(grid, c);
       if (!(narrow > 0)) continue;
       double on_fluid = 0, on_solids = 0, solids_density = 0;
       SlowDrag slow(fields.fluid.voidage[at], constants.fluid.density);
-      convection.see(courant_rate(grid, fields.fluid.velocity, c), c);
+      convection.see(crossing[std::size_t(n)], c);
       for (std::size_t j = 0; j < constants.species(); ++j) {
         const double b = fields.solids.exchange[j][at], phi = std::max(fields.solids.fraction[j][at], 0.0);
-        convection.see(courant_rate(grid, fields.solids.velocity[j], c), c);
         on_fluid += phi * b / (std::max(fields.fluid.voidage[at], fluid::voidage_floor) * constants.fluid.density);
         solids_density += fields.share[j][at] * constants.density[j];
         on_solids = std::max(on_solids, b / constants.density[j]);
@@ -103,12 +133,8 @@ std::vector<TimeScale> time_scales(const Constants& constants, const Fields& fie
 double longest_split_step(const Constants& constants, const Fields& fields) {
   constexpr double share = 1.0;
   double fastest = 0;
-  core::for_each_row(constants.grid, [&](Index begin, Index end) {
-    for (Index c = begin; c < end; ++c) {
-      fastest = std::max(fastest, courant_rate(constants.grid, fields.fluid.velocity, c));
-      for (const core::FaceField& velocity : fields.solids.velocity)
-        fastest = std::max(fastest, courant_rate(constants.grid, velocity, c));
-    }
+  for_each_part_of_rows(constants.grid, fields, [&](Index, Index cells, const Rates& crossing) {
+    fastest = std::max(fastest, *std::max_element(crossing.begin(), crossing.begin() + cells));
   });
   fastest = core::greatest_of_ranks(constants.grid, fastest);
   return fastest > 0 ? share / fastest : std::numeric_limits<double>::max();
