@@ -4,10 +4,18 @@ import numpy as np
 
 from polybed.files import fits, open_hdf5, rising, whole
 
+EMPTIED = 0.05  # of the particles that were there: fewer make no picture
+
 
 def nearest(times, time):
     """Number of the stored time nearest to a time; None without any."""
     return int(np.argmin(np.abs(times - time))) if len(times) else None
+
+
+def step_shown(count):
+    """Number of the step that a picture shows, by how many particles each has: the last, but of a hopper that has run empty the last
+    with half of them."""
+    return int(np.flatnonzero(2 * count >= count.max())[-1]) if count[-1] < EMPTIED * count.max() else len(count) - 1
 
 
 class ParticleStep:

@@ -22,6 +22,7 @@ with needed(__name__ == "__main__"):
     from polybed.drawing.style import STYLE
     from polybed.ending import WRONG_CASE, StudyError, made
     from polybed.files import FAULTS, contents_of
+    from polybed.particles import step_shown
     from polybed.read import Snapshot, nearest
 
 WHAT = ("overview", "fields", "particles", "profiles", "history", "animation")
@@ -43,12 +44,12 @@ def stored_times(run):
 
 
 def step_of(run, time):
-    """Number of the stored step nearest to a time, of the last if None; a time that is not covered is refused."""
+    """Number of the stored step nearest to a time, of the last worth showing if None; a time that is not covered is refused."""
     stored, what = stored_times(run), "particles" if len(run.particles) else "fields"
     if len(stored) == 0:
         raise FileNotFoundError(f"{run.directory} has no stored fields yet, and no particles")
     if time is None:
-        return len(stored) - 1
+        return step_shown(run.particles.count) if len(run.particles) else len(stored) - 1
     first, last = stored[0], stored[-1]
     if not first <= time <= last * (1 + 1e-9):
         raise StudyError(WRONG_CASE, f"--time {time:g} s is not covered: {what} are stored from {first:g} to {last:g} s")

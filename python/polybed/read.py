@@ -150,6 +150,15 @@ class Run:
         return [name for name in columns if name in stored] + [name for name in stored if name not in columns]
 
     @property
+    def kinds(self) -> dict[str, list[str]]:
+        """The species as the case names them, each with its size classes: {"sand": ["sand.1", "sand.2"], "fines": ["fines"]}."""
+        found: dict[str, list[str]] = {}
+        for name in self.species:
+            whole = name.rpartition(".")[0]
+            found.setdefault(whole if f"centre_{whole}_m" in self.history else name, []).append(name)
+        return found
+
+    @property
     def history(self) -> dict[str, np.ndarray]:
         """history.csv: a dictionary of columns; entries without value are NaN; a row being written is left out."""
         path = self._folder.file("history.csv")

@@ -6,11 +6,23 @@ from polybed.drawing.maps import Group, draw_maps
 from polybed.drawing.style import FEW_SOLIDS, greatest_fraction, in_plane, shown_height, title_of, vector_in_plane
 from polybed.drawing.units import fitting
 
+THIN = 0.05  # of the scale of all species, on which less looks like nothing
 
-def fractions(run, step):
-    """Volume fractions of the species, on one scale."""
-    maps = [(name, in_plane(run.field(f"phi_{name}")[step])) for name in run.species]
-    return Group("solids fraction", "viridis", (0, greatest_fraction(run, [step])), maps)
+
+def fractions(run, step, classes=True):
+    """Volume fractions of the species, on one scale; classes of sizes one by one, or as one."""
+    species = {name: [name] for name in run.species} if classes else run.kinds
+    maps = [(name, in_plane(sum(run.field(f"phi_{one}")[step] for one in parts))) for name, parts in species.items()]
+    most = max([greatest_fraction(run, [step])] + [float(values.max()) for _, values in maps])
+    return Group("solids fraction", "viridis", (0, most), maps)
+
+
+def thin_apart(group):
+    """A group, and for each species that is suspended so thinly that its map would look empty a group with a scale of its own."""
+    thin = [0 < values.max() < THIN * group.limits[1] for _, values in group.maps]
+    group_of = {own: [one for one, is_thin in zip(group.maps, thin) if is_thin == own] for own in (False, True)}
+    own = [Group(group.label, group.colours, (0, float(one[1].max())), [one]) for one in group_of[True]]
+    return [Group(group.label, group.colours, group.limits, group_of[False]), *own]
 
 
 def voidages(run, step):
@@ -36,6 +48,6 @@ def velocities(run, step):
 
 def draw(run, step):
     """The figure of a stored step."""
-    groups = [fractions(run, step), voidages(run, step), velocities(run, step)]
+    groups = [*thin_apart(fractions(run, step)), voidages(run, step), velocities(run, step)]
     groups = [group for group in groups if group.maps]
     return draw_maps(run, groups, title_of(run, run.time[step], maps=True), shown_height(run, [step]))[0]

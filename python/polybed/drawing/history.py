@@ -11,7 +11,7 @@ from polybed.outflow import discharge_rate, mass_out, recovery
 def draw_heights(axes, run, factor, unit):
     history = run.history
     t = history["time_s"]
-    for n, name in enumerate(run.species):
+    for n, name in enumerate(run.kinds):
         if f"centre_{name}_m" in history:
             axes.plot(t, history[f"centre_{name}_m"] * factor, label=f"centre of {name}", **species_line(n))
     for column, name, line in levels(history):
@@ -96,7 +96,7 @@ def draw_overlap(axes, run):
 def draw_species(axes, run, values, unit, label):
     """A quantity of each species in time."""
     factor, shown = fitting(unit, max(np.nanmax(v, initial=0) for v in values.values()))
-    for n, name in enumerate(run.species):
+    for n, name in enumerate(run.kinds):
         if name in values:
             axes.plot(run.history["time_s"], values[name] * factor, linewidth=1, **species_line(n))
     axes.set_ylim(bottom=0)
@@ -137,12 +137,12 @@ def panels(run):
     # particles without a fluid have no pressure
     if {"pressure_drop_Pa", "buoyant_weight_Pa"} <= history.keys() and np.any(history["pressure_drop_Pa"] != 0):
         chosen.append((1.2, lambda axes: draw_force_balance(axes, run)))
-    left = mass_out(history, run.species)
+    left = mass_out(history, run.kinds)
     if left:
-        shares = recovery(history, run.species)
+        shares = recovery(history, run.kinds)
         chosen += [(1.2, lambda axes: draw_species(axes, run, left, "kg", "left the\ncolumn")),
                    (1.2, lambda axes: draw_species(axes, run, shares, "1", "recovery"))]
-        if len(discharge_rate(history, run.species)[0]):
+        if len(discharge_rate(history, run.kinds)[0]):
             chosen.append((1.2, lambda axes: draw_discharge(axes, run)))
     if "mixing" in history and len(run.species) > 1:
         chosen.append((1, lambda axes: draw_mixing(axes, run)))

@@ -4,7 +4,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 from polybed.drawing import particles
-from polybed.drawing.fields import fractions, voidages
+from polybed.drawing.fields import fractions, thin_apart, voidages
 from polybed.drawing.maps import draw_map, frame
 from polybed.drawing.style import GREY, PALE, fitted, length_unit, shown_height, species_line, title_of, width_of
 from polybed.read import nearest
@@ -13,26 +13,23 @@ MAP_HEIGHT = 5.2  # inches
 MAP_WIDTHS = (0.9, 3.4)  # inches, least and most
 
 
-def draw_profiles(axes, run, time, legend):
-    """Lateral averages against height, at the stored time nearest to that of the maps. Without its legend the
-    colours are told by that of the history."""
+def draw_profiles(axes, run, time):
+    """Lateral averages against height, at the stored time nearest to that of the maps; the history names the colours."""
     profiles = run.profiles
     if not profiles or len(profiles["time_s"]) == 0:
         axes.set_axis_off()
         return
     row = nearest(profiles["time_s"], time)
     height = profiles["y_m"] * length_unit(run)[0]
-    for n, name in enumerate(run.species):
-        if f"phi_{name}" in profiles:
-            axes.plot(profiles[f"phi_{name}"][row], height, label=name, **species_line(n))
+    for n, classes in enumerate(run.kinds.values()):
+        if all(f"phi_{name}" in profiles for name in classes):
+            axes.plot(sum(profiles[f"phi_{name}"][row] for name in classes), height, **species_line(n))
     if "voidage" in profiles:
-        axes.plot(profiles["voidage"][row], height, color=GREY, linestyle="--", linewidth=1, label="voidage")
+        axes.plot(profiles["voidage"][row], height, color=GREY, linestyle=":", linewidth=1)
     axes.set_xlim(0, 1)
     axes.set_title("lateral mean")
-    axes.set_xlabel("volume fraction")
+    axes.set_xlabel("volume fraction (dotted: voidage)" if "voidage" in profiles else "volume fraction")
     axes.tick_params(labelleft=False)
-    if legend:
-        axes.legend(loc="upper center", fontsize=8, handlelength=1.4, frameon=True, edgecolor="none", framealpha=0.85)
 
 
 def draw_history(axes, run, time):
@@ -43,7 +40,7 @@ def draw_history(axes, run, time):
         return
     factor, unit = length_unit(run)
     t = history["time_s"]
-    for n, name in enumerate(run.species):
+    for n, name in enumerate(run.kinds):
         column = history.get(f"centre_{name}_m")
         if column is not None:
             axes.plot(t, column * factor, label=f"centre of {name}", **species_line(n))
@@ -94,7 +91,7 @@ class Layout:
 
 def draw_fields(run, step, layout, top):
     """Volume fractions of the species and of the fluid."""
-    groups = (fractions(run, step), voidages(run, step))
+    groups = (*thin_apart(fractions(run, step, classes=False)), voidages(run, step))
     for n, (group, name, values) in enumerate((group, *entry) for group in groups for entry in group.maps):
         mesh = draw_map(layout.map(n), run, group, name, values, top, first=n == 0)
         bar = layout.figure.colorbar(mesh, cax=layout.bar(n), orientation="horizontal")
@@ -122,11 +119,11 @@ def draw(run, step):
     if len(run.particles):
         time, top, count, draw_bed = run.particles.time[step], particles.shown_top(run, [step]), 2, draw_particles
     else:
-        time, top, count, draw_bed = run.time[step], shown_height(run, [step]), len(run.species) + 1, draw_fields
+        time, top, count, draw_bed = run.time[step], shown_height(run, [step]), len(run.kinds) + 1, draw_fields
     layout = Layout(count, width_of(run) / top)
     draw_bed(run, step, layout, top)
     profile = layout.profile()
-    draw_profiles(profile, run, time, legend=layout.map_height > 2.5)
+    draw_profiles(profile, run, time)
     profile.set_ylim(0, top * length_unit(run)[0])
     draw_history(layout.history(), run, time)
     title = title_of(run, time, maps=draw_bed is draw_fields)

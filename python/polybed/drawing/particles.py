@@ -68,7 +68,7 @@ def circles(axes, run, step, colours, most=MOST):
 
 def species_colours(run, step):
     """Of each particle, the colour of its species."""
-    return np.array([COLOURS[n % len(COLOURS)] for n in range(len(run.particles.species))])[step.species]
+    return np.array([COLOURS[n % len(COLOURS)] for n, classes in enumerate(run.kinds.values()) for _ in classes])[step.species]
 
 
 def speed(step):
@@ -93,8 +93,8 @@ def speed_colours(step, end):
 def name_species(axes, run):
     """The names of the species beneath a view."""
     dots = [Line2D([], [], linestyle="", marker="o", color=COLOURS[n % len(COLOURS)], label=name)
-            for n, name in enumerate(run.particles.species)]
-    columns = 1 if max(map(len, run.particles.species)) > 10 else 3
+            for n, name in enumerate(run.kinds)]
+    columns = 1 if max(map(len, run.kinds)) > 10 else 3
     axes.legend(handles=dots, loc="upper center", bbox_to_anchor=(0.5, 1.5), ncol=columns, fontsize=8, handletextpad=0.2,
                 columnspacing=1, borderaxespad=0)
     axes.set_axis_off()

@@ -36,6 +36,7 @@ STYLE = {
     "svg.hashsalt": "polybed",  # the same picture gives the same file
 }
 FEW_SOLIDS = 0.01  # a volume fraction below which a place counts as empty
+TRACE = 1e-5  # below which nothing is suspended
 
 
 def species_line(n):
@@ -94,12 +95,13 @@ def width_of(run):
 
 def shown_height(run, steps):
     """Top of the maps, m: a fifth above the highest solids of the steps, so that a bed in a tall column is not a
-    strip at the bottom; never above the column."""
+    strip at the bottom; never above the column. What is suspended thinly counts, too, but for traces."""
     faces, top = run.faces["y"], 0
     for step in steps:
-        solids = sum(in_plane(run.field(f"phi_{name}")[step]) for name in run.species)
-        rows = np.flatnonzero(np.max(solids, axis=1) > FEW_SOLIDS) if run.species else []
-        top = max(top, faces[rows[-1] + 1] if len(rows) else 0)
+        each = [in_plane(run.field(f"phi_{name}")[step]).max(axis=1) for name in run.species]
+        for phi in each:
+            rows = np.flatnonzero((sum(each) > FEW_SOLIDS) | (phi > max(0.05 * phi.max(), TRACE)))
+            top = max(top, faces[rows[-1] + 1] if len(rows) else 0)
     return min(1.2 * top, faces[-1]) if top > 0 else faces[-1]
 
 

@@ -5,6 +5,7 @@ import numpy as np
 from polybed.drawing.maps import walls_of
 from polybed.drawing.style import COLOURS, FEW_SOLIDS, around_axis, in_plane, length_unit, vector_in_plane, wall_to_wall
 from polybed.drawing.units import fitting
+from polybed.particles import step_shown
 from polybed.record import case_of
 from polybed.report.pack import EMPTY, changes, levels, packed, plain_numbers, thinned
 
@@ -200,6 +201,7 @@ def particles_of(run):
     size = run.particles.size * factor
     walls = max((float(line[:, 1].max()) * factor for line in outlines), default=0.0)
     size[1] = min(size[1], max(1.1 * found["top"], 0.25 * size[0], walls))  # a bed in a tall column is not to be a strip at the bottom
-    return found | {"time": plain_numbers(run.particles.time[chosen]), "names": run.particles.species, "size": [float(v) for v in size],
+    return found | {"time": plain_numbers(run.particles.time[chosen]), "open": float(run.particles.time[step_shown(run.particles.count)]),
+                    "names": run.particles.species, "size": [float(v) for v in size],
                     "outlines": [[plain_numbers(point * factor) for point in line] for line in outlines],
                     "colours": [COLOURS[n % len(COLOURS)] for n in range(len(run.particles.species))], "note": "; ".join(notes)}

@@ -367,7 +367,7 @@
     }
     slider.type = "range"; slider.id = "slider"; slider.min = 0; slider.max = Math.max(0, times.length - 1);
     slider.setAttribute("aria-label", "stored time");
-    slider.value = where.end ? slider.max : nearest(times, where.time);
+    slider.value = nearest(times, where.end ? particles ? data.particles.open : times.at(-1) : where.time);
     slider.addEventListener("input", draw);
     const play = document.createElement("button");
     play.textContent = "play"; play.id = "play";

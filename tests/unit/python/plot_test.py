@@ -7,6 +7,7 @@ import json
 import subprocess
 import sys
 import tempfile
+import types
 import unittest
 import unittest.mock
 from pathlib import Path
@@ -49,6 +50,28 @@ class Style(SampleRun):
         group = fields.fractions(self.sample, 4)
         self.assertEqual(group.limits, (0, most))
         self.assertEqual([name for name, _ in group.maps], ["fine", "coarse"])
+        self.assertEqual([one.limits for one in fields.thin_apart(group)], [(0, most)])
+
+    def test_what_is_suspended_thinly_has_a_scale_of_its_own(self):
+        """The fine species alone, at a hundredth of what is stored: 0.003 at most, over the whole height of the column."""
+        bed, silt = self.sample.phi_fine[4], np.full_like(self.sample.phi_fine[4], 0.003)
+        group = maps.Group("solids fraction", "viridis", (0, float(bed.max())), [("silt", silt), ("bed", bed)])
+        apart = fields.thin_apart(group)
+        self.assertEqual([([name for name, _ in one.maps], one.limits) for one in apart], [(["bed"], group.limits), (["silt"], (0, 0.003))])
+        run = types.SimpleNamespace(species=["silt", "bed"], faces=self.sample.faces, field=lambda name: [{"phi_silt": silt, "phi_bed": bed}[name]])
+        self.assertEqual(style.shown_height(run, [0]), self.sample.faces["y"][-1], "up to where the silt reaches")
+
+    def test_size_classes_are_drawn_as_one(self):
+        path = self.directory / "history.csv"
+        rows = [line.split(",") for line in path.read_text().split()]
+        rows[0] = [name.replace("_fine_", "_sand.1_").replace("_coarse_", "_sand.2_") for name in rows[0]] + ["centre_sand_m"]
+        path.write_text("".join(",".join(row if n == 0 else [*row, "0.05"]) + "\n" for n, row in enumerate(rows)))
+        stored = {"phi_sand.1": self.sample.phi_fine[4], "phi_sand.2": self.sample.phi_coarse[4]}
+        with unittest.mock.patch.object(self.sample, "fields", list(stored)), \
+                unittest.mock.patch.object(self.sample, "field", lambda name: {4: stored[name]}, create=True):
+            self.assertEqual(self.sample.kinds, {"sand": ["sand.1", "sand.2"]})
+            (name, drawn), = fields.fractions(self.sample, 4, classes=False).maps
+        np.testing.assert_array_equal(drawn, sum(stored.values()))
 
     def test_each_of_many_species_looks_different(self):
         looks = {tuple(style.species_line(n).values()) for n in range(15)}  # as many as a case may have
@@ -243,6 +266,11 @@ class Particles(SampleRun):
             # each circle's diameter in mm, within rounding of the figure's size in pixels
             np.testing.assert_allclose(diameters, 2e3 * self.sample.particles[0].radius[order], rtol=1e-6)
             self.assertEqual(drawn.get_offsets().tolist(), (1e3 * self.sample.particles[0].position[order, :2]).tolist())
+
+    def test_an_empty_hopper_is_shown_while_it_runs_out(self):
+        with unittest.mock.patch.object(self.sample.particles, "count", np.array([300, 200, 150, 20, 0])):
+            self.assertEqual(plot.step_of(self.sample, None), 2, "the last with half of them")
+        self.assertEqual(plot.step_of(self.sample, None), 4)
 
     def test_those_behind_come_first(self):
         step = self.sample.particles[0]

@@ -255,6 +255,7 @@ class Sizes(unittest.TestCase):
         self.assertGreaterEqual(len(maps["time"]), 20, "most frames of this size fit, were they not noise")
         self.assertIn("of 100 stored times", maps["note"])
         self.assertGreaterEqual(len(particles["time"]), beds.FEWEST_STEPS)
+        self.assertEqual(particles["open"], run.particles.time[-1])
 
     def test_all_frames_are_kept_where_they_fit(self):
         run = Noise(100, (60, 20), 2)
