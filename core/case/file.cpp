@@ -150,9 +150,10 @@ class CaseReader {
       for (const Law& l : role->laws) laws.push_back(l.name);
       if (!law || std::none_of(laws.begin(), laws.end(), [&](const auto& l) { return fits_word(l, *law); })) {
         const std::string near = law ? nearest_name(*law, laws) : "";
-        values_.add(value.source(),
-                    fmt::format("effects.{} = {}: allowed are {}{}", name.str(), shown(value), fmt::join(laws, " | "),
-                                near.empty() ? "" : "; did you mean \"" + near + "\"?"));
+        std::string hint = law ? instead_of_removed(fmt::format("effects.{}", name.str()), *law) : "";
+        if (hint.empty() && !near.empty()) hint = "; did you mean \"" + near + "\"?";
+        values_.add(value.source(), fmt::format("effects.{} = {}: allowed are {}{}", name.str(), shown(value),
+                                                fmt::join(laws, " | "), hint));
         wrong_.add("effects." + role->name);
         continue;
       }

@@ -1,4 +1,4 @@
-// What cases of earlier versions may name and this version does not read.
+// What cases of earlier versions and of other programs may name and this version does not read.
 #pragma once
 
 #include <string>

@@ -111,9 +111,12 @@ std::optional<double> CaseValues::number(const Key& key, const toml::node& node)
   } else if (const auto text = node.value<std::string_view>()) {
     const auto parsed = parse_quantity(*text);
     if (!parsed) {
+      std::string with_point(*text);
+      std::replace(with_point.begin(), with_point.end(), ',', '.');
+      const bool comma = parse_quantity(with_point).has_value();
       expected(key, node,
-               fmt::format("a number with a unit such as \"1 {}\"; polybed schema lists the units",
-                           unit_name(key.dimension)));
+               fmt::format("a number with a unit such as \"1 {}\"; {}", unit_name(key.dimension),
+                           comma ? "did you mean \"" + with_point + "\"?" : "polybed schema lists the units"));
       return std::nullopt;
     }
     q = *parsed;

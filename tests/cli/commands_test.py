@@ -80,6 +80,11 @@ class WrongCase(Scratch):
             self.assertEqual(len(told), 1, f"{key} at {line}:{column} in\n{done.stderr}")
             self.assertIn(message, told[0])
 
+    def test_a_law_of_another_program_and_a_decimal_comma_get_a_hint(self):
+        for setting, hint in (("effects.drag=syamlal_obrien", "in a gas bed gidaspow is nearest"),
+                              ("species.fine.diameter=0,8 mm", 'did you mean "0.8 mm"?')):
+            self.assertIn(hint, self.ends(WRONG_CASE, "check", CASE, "--set", setting).stderr)
+
     def test_a_missing_key_and_a_wrong_override_are_told_together(self):
         path = self.write("short.toml", CASE.read_text().replace('until = "20 s"', ""))
         done = self.ends(WRONG_CASE, "check", path, "--set", "tfm.rtol=2", "--set", "species.big.diameter=1")
