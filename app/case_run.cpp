@@ -12,6 +12,7 @@
 #include "core/output/history.hpp"
 #include "core/output/json.hpp"
 #include "core/print.hpp"
+#include "multiscale/program.hpp"
 #include "multiscale/python_module.hpp"
 #include "multiscale/requirements.hpp"
 #include "multiscale/roles.hpp"
@@ -115,7 +116,7 @@ void CaseRun::run_to_end() {
   try {
     go();
   } catch (const core::Stopped&) {
-    if (!steady_) {
+    if (!steady_ && !is_over()) {
       finish("stopped by the user");
       throw;
     }
@@ -145,7 +146,7 @@ void CaseRun::go() {
           prediction_ = predicted_by((core::cpu_seconds() - begin - timers_.seconds("output")) / steps);
         }
         if (progress.due(simulation().time())) progress.show(line());
-        return after_step() && !has_become_steady();
+        return after_step() && !has_become_steady() && !is_over();
       },
       [this] { return stop_wanted(); });
 }
@@ -184,8 +185,8 @@ void CaseRun::say(const std::vector<std::string>& lines) const {
 
 std::string CaseRun::command_to_resume(const std::vector<std::string>& more) const {
   std::string command =
-      fmt::format("polybed {} {} -o {} --resume", model_name_, core::shell_word(options_.case_path.string()),
-                  core::shell_word(directory_.string()));
+      fmt::format("{} {} {} -o {} --resume", typed_program(), model_name_,
+                  core::shell_word(options_.case_path.string()), core::shell_word(directory_.string()));
   for (const auto& settings : {options_.overrides, more})
     for (const std::string& setting : settings) command += " --set " + core::shell_word(setting);
   return command;

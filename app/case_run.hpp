@@ -66,6 +66,8 @@ class CaseRun {
   virtual void keep_last_state() {}
   /// After each step: false if the user wants to stop.
   [[nodiscard]] virtual bool after_step() { return !stop_wanted(); }
+  /// Whether nothing is left to simulate. Collective.
+  [[nodiscard]] virtual bool is_over() { return false; }
   [[nodiscard]] virtual std::vector<double> breakpoints() { return {}; }
   /// What limited the step so far; empty: no step yet.
   [[nodiscard]] virtual std::string limited_by() const = 0;

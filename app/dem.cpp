@@ -110,6 +110,7 @@ class DemRun final : public CaseRun {
             {"particles", *scene_.output.every, [&](double t) {
                const auto scope = timers_.scope("output");
                observers_->write_particles(t);
+               emptied_ = model_.outflow() != nullptr && model_.feeding() == nullptr && model_.particle_count() == 0;
              }}};
   }
 
@@ -119,6 +120,8 @@ class DemRun final : public CaseRun {
     watch(monitor_.get(), model_);
     return model_.steps() % 64 != 0 || CaseRun::after_step();
   }
+
+  bool is_over() override { return emptied_; }
 
   core::ProgressLine line() override {
     const measures::WorstInvariant* energy = observers_->invariants().energy();
@@ -291,6 +294,7 @@ class DemRun final : public CaseRun {
   dem::Work work_, before_;           ///< of the last record; what the processes before this one have counted
   std::optional<FluidReport> fluid_;  ///< of the last record; absent without a fluid
   double cpu_ = 0;
+  bool emptied_ = false;       ///< all particles have left, and none is fed
   double settling_shown_ = 0;  ///< when, s
 };
 

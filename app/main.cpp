@@ -3,6 +3,7 @@
 #include <mpi.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cstdio>
 #include <cstring>
@@ -96,6 +97,12 @@ std::string misplaced_command(const CLI::App& app, int argc, char** argv) {
                       next = behind + 1 < argv + argc ? behind[1] : "2";
     return fmt::format("-n stands before the command: polybed -n {} {} ...", joined.empty() ? next : joined, word);
   }
+  constexpr std::array<std::string_view, 2> of_others{"run", "simulate"};
+  if (word.ends_with(".toml") || std::find(of_others.begin(), of_others.end(), word) != of_others.end())
+    return fmt::format(
+        "'{}' is no command: polybed tfm CASE runs a case as a continuum, polybed dem CASE particle by "
+        "particle; polybed check CASE says which can",
+        word);
   const std::string near = core::nearest_name(word, names);
   return fmt::format("unknown command '{}'{}", word,
                      near.empty() ? "; polybed --help lists them" : "; did you mean '" + near + "'?");
@@ -121,6 +128,7 @@ void check_vector_width() {
 /// \param mpi  started if the command needs it
 core::ExitCode run(int argc, char** argv, std::optional<MpiSession>& mpi) {
   check_vector_width();
+  keep_typed_program(argv[0]);
   CLI::App app{"polybed: beds of particles of several sizes and densities in a liquid or a gas"};
   const std::string kind = core::build_kind().empty() ? "" : ", built with " + core::build_kind();
   app.set_version_flag("--version", "polybed " + core::version() + " (" + core::git_commit() + ")" + kind);

@@ -99,7 +99,8 @@ void run_new(const fs::path& name, const std::string& from) {
   const std::string file = core::shell_word((name / "case.toml").string());
   const char* model = chosen.takes.find("polybed tfm") != std::string::npos || chosen.takes.empty() ? "tfm" : "dem";
   core::print("{}: {}\n{}", file, chosen.title, chosen.takes.empty() ? "" : "takes about " + chosen.takes + "\n");
-  core::print("next:\n  polybed check {}\n  polybed {} {}\n", file, model, file);
+  const std::string program = typed_program();
+  core::print("next:\n  {} check {}\n  {} {} {}\n", program, file, program, model, file);
 }
 
 }  // namespace

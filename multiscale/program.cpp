@@ -26,6 +26,15 @@ namespace fs = std::filesystem;
 
 fs::path this_program() { return fs::read_symlink("/proc/self/exe"); }
 
+void keep_typed_program(const char* word) {
+  if (word != nullptr) (void)::setenv("POLYBED_TYPED", word, 0);
+}
+
+std::string typed_program() {
+  const char* word = std::getenv("POLYBED_TYPED");
+  return word == nullptr ? "polybed" : core::shell_word(word);
+}
+
 fs::path beside_program(const fs::path& from_program, const fs::path& in_sources) {
   if (this_program().parent_path() == POLYBED_BUILD) return in_sources;  // what is beside the build is not ours
   std::error_code unknown;

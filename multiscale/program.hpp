@@ -13,6 +13,12 @@ namespace polybed::multiscale {
 /// The file of this program.
 [[nodiscard]] std::filesystem::path this_program();
 
+/// Keeps what the user has typed to start this program, for this process and those that it starts; the launcher, or the
+/// process that has started this one, may have done so.
+void keep_typed_program(const char* word);
+/// The same as a word for a shell: printed commands run as they stand.
+[[nodiscard]] std::string typed_program();
+
 /// A folder or file installed beside this program, or that of the sources if it is not there.
 /// \param from_program  its path from the folder of the program, as CMake's file(RELATIVE_PATH) gives it
 [[nodiscard]] std::filesystem::path beside_program(const std::filesystem::path& from_program,

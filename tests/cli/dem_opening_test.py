@@ -96,7 +96,8 @@ class Opening(Scratch):
         rows = history(run)
         self.assertEqual(rows["mass_coarse_kg"][-1], 0)
         with h5py.File(run / "particles.h5") as file:
-            self.assertEqual(list(file["particles"][()]), [1, 1, 0, 0, 0])  # 2 mm down after 20.2 ms
+            self.assertEqual(list(file["particles"][()]), [1, 1, 0])  # 2 mm down after 20.2 ms; then nothing is left to run
+        self.assertEqual((record["state"], record["time_s"]), ("done", rows["time_s"][-1]))
         self.ends(DONE, "plot", run, "--what", "particles,history")
         self.ends(DONE, "dem", case, "--quiet", "--resume", "--until", "70 ms", "-o", run)
 

@@ -113,6 +113,8 @@ class Explain(Scratch):
     def test_what_is_unknown(self):
         self.assertIn("did you mean 'cello'?", self.ends(WRONG_CASE, "explain", "celo").stderr)
         self.assertIn("did you mean 'tfm'?", self.ends(WRONG_CASE, "tmf", CASE).stderr)
+        for words in (["run", CASE], [CASE]):
+            self.assertIn("polybed tfm CASE runs a case as a continuum", self.ends(WRONG_CASE, *words).stderr)
         self.assertIn("did you mean 'check'?", self.ends(WRONG_CASE, "-n", "2", "chek", CASE).stderr)
 
     def test_ranks_behind_the_command(self):

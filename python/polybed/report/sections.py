@@ -1,6 +1,7 @@
 """The written parts of the page of a run: what limited its steps, invariants, effects, the case, how to cite, the commands."""
 
 import contextlib
+import os
 import re
 import shlex
 from collections import Counter
@@ -124,9 +125,10 @@ def commands(run, record):
     """What makes the run again, and what else can be done with it."""
     model, folder = shlex.quote(str(record.get("model", "tfm"))), shlex.quote(str(run.directory))
     ranks = f"-n {int(record['ranks'])} " if record.get("ranks", 1) > 1 else ""
-    lines = ["# again: save the case above as case.toml", f"polybed {ranks}{model} case.toml -o again", "# more of this run",
-             f"polybed plot {folder}", f"polybed measure {folder}", f"polybed report {folder}"]
-    goes_on = f"polybed {ranks}{model} case.toml -o {folder} --resume"
+    program = shlex.quote(os.environ.get("POLYBED_TYPED", "polybed"))
+    lines = ["# again: save the case above as case.toml", f"{program} {ranks}{model} case.toml -o again", "# more of this run",
+             f"{program} plot {folder}", f"{program} measure {folder}", f"{program} report {folder}"]
+    goes_on = f"{program} {ranks}{model} case.toml -o {folder} --resume"
     if record.get("state") != "done":
         lines.insert(2, f"# or go on with it\n{goes_on}")
     elif record.get("card", {}).get("steady") is False and record.get("time_s"):
