@@ -35,6 +35,8 @@ namespace polybed::app {
 
 namespace {
 
+constexpr double mega = 1e-6;
+
 /// Numbers that follow from a case.
 struct Derived {
   relevance::FluidConstants fluid;
@@ -146,7 +148,6 @@ core::Json json_of(const BedState& bed) {
 }
 
 void write_requirements(core::Json& json, const core::Scene& scene, const Requirements& need) {
-  constexpr double mega = 1e-6;
   json.update({{"integrator", core::name_of(need.integrator)},
                {"momentum", core::name_of(need.momentum)},
                {"unknowns", need.unknowns},
@@ -172,13 +173,12 @@ void print_state(const char* name, const BedState& bed) {
 }
 
 void print_requirements(const core::Scene& scene, const Requirements& need) {
-  constexpr double mega = 1e-6;
-  const MemoryNeed& m = need.memory;
   core::print("{} cells, {} unknowns; integrator {} ({})\n", need.cells, need.unknowns, core::name_of(need.integrator),
               need.reason);
   core::print("convection of momentum {}\n", core::name_of(need.momentum));
-  core::print("memory about {:.0f} MB: state {:.1f}, fields {:.1f}, solvers {:.1f}, program {:.0f}\n", mega * m.total(),
-              mega * m.state, mega * m.fields, mega * m.solver, mega * m.program);
+  core::print("memory about {:.0f} MB: state {:.1f}, fields {:.1f}, solvers {:.1f}, program {:.0f}\n",
+              mega * need.memory.total(), mega * need.memory.state, mega * need.memory.fields,
+              mega * need.memory.solver, mega * need.memory.program);
   core::print("time scales of the bed, from the case alone:\n");
   print_state("at rest", need.rest);
   if (need.expanded.solids_fraction != need.rest.solids_fraction) {
@@ -210,21 +210,19 @@ void print_size_classes(const core::Scene& scene) {
 
 constexpr std::size_t screen = 25;  // lines
 
-std::string memory_text(double bytes) { return fmt::format("{:.0f} MB of memory", 1e-6 * bytes); }
-
 void add_continuum(const core::Scene& scene, const Requirements& need, std::vector<std::string>& lines) {
   const std::string time = need.time ? computing_text(tfm_time(scene, need, known_machine()))
                                      : "time not known: the numbers failed in a sample";
   if (const std::string shape = shape_text(scene.column); !shape.empty()) lines.push_back(card_line("column", shape));
-  lines.push_back(card_line("polybed tfm", fmt::format("{:.4g} s on {} cells: {}; {}", scene.run.until, need.cells,
-                                                       time, memory_text(need.memory.total()))));
+  lines.push_back(card_line("polybed tfm", fmt::format("{:.4g} s on {} cells: {}; {:.0f} MB of memory", scene.run.until,
+                                                       need.cells, time, mega * need.memory.total())));
 }
 
 void add_particles(const core::Scene& scene, const ParticleRequirements& need, std::vector<std::string>& lines) {
-  lines.push_back(card_line(
-      "polybed dem",
-      fmt::format("{:.4g} s of {} particle{}: {}; {}", scene.run.until, need.count(), need.count() == 1 ? "" : "s",
-                  computing_text(dem_time(scene, known_machine())), memory_text(need.memory()))));
+  lines.push_back(
+      card_line("polybed dem", fmt::format("{:.4g} s of {} particle{}: {}; {:.0f} MB of memory", scene.run.until,
+                                           need.count(), need.count() == 1 ? "" : "s",
+                                           computing_text(dem_time(scene, known_machine())), mega * need.memory())));
   lines.push_back(card_line("", fmt::format("step {:.2g} s, limited by {}", need.limits.dt, need.limits.limited_by)));
 }
 
@@ -259,7 +257,8 @@ void note_costs(const core::Scene& scene, std::vector<std::string>& notes) {
 
 /// What was chosen for the case, and what it has off but needs, by each model that runs it.
 void note_choice(const core::Scene& scene, const std::vector<std::string>& models, std::vector<std::string>& notes) {
-  if (std::string line = chosen_line(scene); !line.empty()) notes.push_back(std::move(line));
+  for (std::string line : {chosen_line(scene), unsuited_line(scene)})
+    if (!line.empty()) notes.push_back(std::move(line));
   for (const std::string& model : models)
     if (const std::string line = called_for_line(left_out(scene, model)); !line.empty())
       notes.push_back(model + ": " + line);

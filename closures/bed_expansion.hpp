@@ -47,4 +47,12 @@ template <class Drag>
   return 0.5 * (low + high);
 }
 
+/// s, > 0: the top of a bed that lies packed rises as a plug at u - u_mf after the fluid is switched on, however fast
+/// layers below it expand (Slis, Willemse and Kramers, Applied Scientific Research A 8 (1959) 209, for their case
+/// u_1 = u_mf). Beds of several sizes need longer: their species part afterwards.
+/// \param rise  of the top, m  \param velocity, lifting  u > u_mf, superficial, m/s
+[[nodiscard]] inline double rising_time(double rise, double velocity, double lifting) {
+  return rise / (velocity - lifting);
+}
+
 }  // namespace polybed::closures

@@ -39,13 +39,13 @@ measures::Table<Told> history_table(const Parts& parts) {
        [](const Told& t) { return t.fluid_mass; }});
   add(parts.outflow,
       {"out", "1", "with dem.opening or column.outlet = \"open\": particles that have left since the start",
-       [](const Told& t, std::size_t j) { return t.number_out[j]; }});
-  add(parts.outflow,
-      {"out", "kg", "where particles leave: their mass", [](const Told& t, std::size_t j) { return t.mass_out[j]; }});
+       [](const Told& t, measures::Members j) { return measures::sum_of(t.number_out, j); }});
+  add(parts.outflow, {"out", "kg", "where particles leave: their mass",
+                      [](const Told& t, measures::Members j) { return measures::sum_of(t.mass_out, j); }});
   add(parts.feeding, {"in", "1", "with [[feed]]: particles that have entered since the start",
-                      [](const Told& t, std::size_t j) { return t.number_in[j]; }});
-  add(parts.feeding,
-      {"in", "kg", "with [[feed]]: their mass", [](const Told& t, std::size_t j) { return t.mass_in[j]; }});
+                      [](const Told& t, measures::Members j) { return measures::sum_of(t.number_in, j); }});
+  add(parts.feeding, {"in", "kg", "with [[feed]]: their mass",
+                      [](const Told& t, measures::Members j) { return measures::sum_of(t.mass_in, j); }});
   return table;
 }
 

@@ -76,6 +76,30 @@ std::optional<std::pair<double, double>> pressure_line(const Profile& profile, d
   return std::pair((p - slope * z) / n, slope);
 }
 
+/// Highest z, m, where phi, linear between slab centres, equals half of its volume-weighted mean between two quantiles.
+std::optional<double> half_of_mean(const Profile& profile, double from, double to) {
+  const auto low = volume_quantile(profile, from), high = volume_quantile(profile, to);
+  if (!low || !high) return std::nullopt;
+  double weighted = 0, volume = 0;
+  for (std::size_t k = 0; k < profile.slabs(); ++k) {
+    const double bottom = double(k) * profile.slab, top = bottom + profile.slab;
+    const double part = std::max(0.0, std::min(top, *high) - std::max(bottom, *low));
+    const double phi = std::max(profile.solids_fraction(k), 0.0);
+    weighted += part * phi * phi;
+    volume += part * phi;
+  }
+  if (!(volume > 0)) return std::nullopt;
+  const double half = 0.5 * weighted / volume;
+  for (std::size_t k = profile.slabs(); k-- > 0;) {
+    const double here = profile.solids_fraction(k);
+    if (here < half) continue;
+    if (k + 1 == profile.slabs()) return profile.slab * double(profile.slabs());
+    const double above = profile.solids_fraction(k + 1);
+    return profile.centre(k) + profile.slab * (here - half) / (here - above);
+  }
+  return std::nullopt;
+}
+
 double largest_difference(const std::vector<double>& a, const std::vector<double>& b) {
   double most = 0;
   for (std::size_t j = 0; j < a.size(); ++j) most = std::max(most, std::abs(a[j] - b[j]));
@@ -97,27 +121,15 @@ std::optional<double> volume_quantile(const Profile& profile, double q) {
   return profile.slab * double(profile.slabs());
 }
 
-std::optional<double> bed_height(const Profile& profile) {
-  const auto low = volume_quantile(profile, 0.80), high = volume_quantile(profile, 0.95);
-  if (!low || !high) return std::nullopt;
-  double weighted = 0, volume = 0;
-  for (std::size_t k = 0; k < profile.slabs(); ++k) {
-    const double bottom = double(k) * profile.slab, top = bottom + profile.slab;
-    const double part = std::max(0.0, std::min(top, *high) - std::max(bottom, *low));
-    const double phi = std::max(profile.solids_fraction(k), 0.0);
-    weighted += part * phi * phi;
-    volume += part * phi;
-  }
-  if (!(volume > 0)) return std::nullopt;
-  const double half = 0.5 * weighted / volume;
-  for (std::size_t k = profile.slabs(); k-- > 0;) {
-    const double here = profile.solids_fraction(k);
-    if (here < half) continue;
-    if (k + 1 == profile.slabs()) return profile.slab * double(profile.slabs());
-    const double above = profile.solids_fraction(k + 1);
-    return profile.centre(k) + profile.slab * (here - half) / (here - above);
-  }
-  return std::nullopt;
+std::optional<double> bed_height(const Profile& profile) { return half_of_mean(profile, 0.80, 0.95); }
+
+std::optional<double> dense_height(const Profile& profile) { return half_of_mean(profile, 0.0, 0.50); }
+
+Profile merged(const Profile& profile, std::span<const std::size_t> species) {
+  Profile one{profile.slab, {std::vector<double>(profile.slabs(), 0.0)}, {}};
+  for (const std::size_t j : species)
+    for (std::size_t k = 0; k < one.slabs(); ++k) one.fraction[0][k] += profile.fraction[j][k];
+  return one;
 }
 
 std::optional<double> bed_height_by_pressure(const Profile& profile) {

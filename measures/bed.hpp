@@ -14,6 +14,13 @@ namespace polybed::measures {
 /// phi between z_0.80 and z_0.95 (so a dense lower layer does not decide). Empty for an empty bed.
 [[nodiscard]] std::optional<double> bed_height(const Profile& profile);
 
+/// The same for half of the mean of phi below z_0.50: the top of the dense bed, where bed_height counts what is
+/// suspended above it once that is a good part of the solids. Empty for an empty bed.
+[[nodiscard]] std::optional<double> dense_height(const Profile& profile);
+
+/// Several species as one; without the pressure.
+[[nodiscard]] Profile merged(const Profile& profile, std::span<const std::size_t> species);
+
 /// Where two straight lines through the net pressure cross, m, as experiments report a bed's height: one by least
 /// squares over the slabs with centres between z_0.10 and z_0.80, one over those above 1.1 bed_height. Empty where one
 /// of them has fewer than two slabs, or where they do not cross in the column.

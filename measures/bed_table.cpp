@@ -15,8 +15,16 @@ Value pressure_drop_of(const Bed& bed) {
   return pressure_drop(bed.profile);
 }
 
-Value centre_of(const Bed& bed, std::size_t species) {
-  return bed.centre.empty() ? centre(bed.profile, species) : bed.centre[species];
+Value centre_of(const Bed& bed, Members species) {
+  if (bed.centre.empty()) return centre(merged(bed.profile, species), 0);
+  if (species.size() == 1) return bed.centre[species[0]];
+  double moment = 0, mass = 0;
+  for (const std::size_t j : species)
+    if (bed.centre[j]) {
+      moment += bed.mass[j] * *bed.centre[j];
+      mass += bed.mass[j];
+    }
+  return mass > 0 ? Value(moment / mass) : Value();
 }
 
 }  // namespace
@@ -32,6 +40,9 @@ Table<Bed> bed_table() {
        "highest z where phi, linear between slab centres, equals half of the volume-weighted mean of phi between "
        "z_0.80 and z_0.95",
        of_profile(bed_height), all},
+      {"dense_height", "m",
+       "the same for half of the mean of phi below z_0.50: the top of the dense bed, below what is suspended",
+       of_profile(dense_height), also_profiles},
       {"bed_height_by_pressure", "m",
        "where two straight lines through p cross, by least squares over z_0.10 to z_0.80 and above 1.1 bed heights",
        of_profile(bed_height_by_pressure), only_profiles},
@@ -44,7 +55,10 @@ Table<Bed> bed_table() {
        [](const Bed& bed) { return bed.buoyant_weight; }},
       {"centre", "m", "sum z phi_j / sum phi_j; in the history of particles the mean height of their centres",
        centre_of, and_drift},
-      {"mass", "kg", "in the column", [](const Bed& bed, std::size_t species) { return bed.mass[species]; }},
+      {"mass", "kg", "in the column", [](const Bed& bed, Members species) { return sum_of(bed.mass, species); }},
+      {"top", "m",
+       "bed_height of the species alone, by phi_j: how far up it reaches; in layers the interface to the next species",
+       [](const Bed& bed, Members species) { return bed_height(merged(bed.profile, species)); }, also_profiles},
       {"centre_difference", "1", "centre of species 2 less that of species 1, over bed_height",
        of_profile(centre_difference), only_profiles},
       {"interface", "m",
@@ -68,7 +82,9 @@ Table<Beside> distance_table() {
        "integral over z of |phi_j - phi_j,ref| over that of phi_j,ref, mean over species: 0 alike, 2 nowhere together",
        [](const Beside& beds) { return profile_distance(beds.profile, beds.reference); }, only_profiles},
       {"profile", "1", "the same of one species",
-       [](const Beside& beds, std::size_t species) { return profile_distance(beds.profile, beds.reference, species); },
+       [](const Beside& beds, Members species) {
+         return profile_distance(merged(beds.profile, species), merged(beds.reference, species), 0);
+       },
        only_profiles},
   };
 }

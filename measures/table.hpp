@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <variant>
 #include <vector>
@@ -13,6 +14,25 @@
 namespace polybed::measures {
 
 using Value = std::optional<double>;  ///< empty: there is nothing to measure
+
+/// Numbers of the species that count as one: a single one, or all size classes of one.
+using Members = std::span<const std::size_t>;
+
+[[nodiscard]] inline double sum_of(const std::vector<double>& values, Members members) {
+  double sum = 0;
+  for (const std::size_t j : members) sum += values[j];
+  return sum;
+}
+
+/// What a case calls a species.
+struct Kind {
+  std::string name;
+  std::vector<std::size_t> members;
+  bool is_class = false;  ///< one size class of a species, which is a kind, too
+};
+
+/// Each species, then each that has size classes ("sand.1", "sand.2") as a whole ("sand").
+[[nodiscard]] std::vector<Kind> kinds_of(const std::vector<std::string>& species);
 
 /// Who reads a measure.
 struct Readers {
@@ -26,7 +46,7 @@ struct Readers {
 template <class Source>
 struct Measure {
   using OfWhole = std::function<Value(const Source&)>;
-  using OfSpecies = std::function<Value(const Source&, std::size_t species)>;
+  using OfSpecies = std::function<Value(const Source&, Members)>;
 
   std::string name;  ///< "bed_height"; "centre" of the species "fine" is "centre_fine"
   std::string unit;  ///< "1" of a number
@@ -59,8 +79,8 @@ struct Single {
   [[nodiscard]] std::string column() const { return unit == of_number ? name : name + "_" + unit; }
 };
 
-/// The numbers that a table asks for where there are these species. Rows of each species that follow each other stay
-/// together, species by species.
+/// The numbers that a table asks for where there are these species: of each, and of each as a whole that has size
+/// classes. Rows of each species that follow each other stay together, species by species.
 template <class Source>
 [[nodiscard]] std::vector<Single<Source>> singles(const Table<Source>& table, const std::vector<std::string>& species) {
   using Row = Measure<Source>;
@@ -72,10 +92,12 @@ template <class Source>
       continue;
     }
     const auto end = std::find_if(row, table.end(), [](const Row& later) { return !later.of_species(); });
-    for (std::size_t j = 0; j < species.size(); ++j)
+    for (const Kind& kind : kinds_of(species))
       for (auto one = row; one != end; ++one)
-        found.push_back({one->name + "_" + species[j], one->unit, one->help,
-                         [of = std::get<typename Row::OfSpecies>(one->of), j](const Source& s) { return of(s, j); },
+        found.push_back({one->name + "_" + kind.name, one->unit, one->help,
+                         [of = std::get<typename Row::OfSpecies>(one->of), members = kind.members](const Source& s) {
+                           return of(s, members);
+                         },
                          one->readers});
     row = end;
   }

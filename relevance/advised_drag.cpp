@@ -68,6 +68,12 @@ AdvisedDrag advised_drag(const core::Scene& scene, DragScene kind) {
   return {};
 }
 
+std::vector<std::string> laws_of_beds(DragScene kind) {
+  if (kind == DragScene::liquid_bed) return {of_suspensions.begin(), of_suspensions.end()};
+  if (kind == DragScene::gas_bed) return {"gidaspow", "wen_yu", "hkl"};
+  return {};
+}
+
 std::string unsuited(const std::string& law, DragScene kind) {
   if (is_among(of_one_sphere, law) && kind != DragScene::lone)
     return law + " is made for one sphere: it ignores the neighbours";

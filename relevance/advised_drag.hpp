@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "core/case/scene.hpp"
 
@@ -25,6 +26,9 @@ struct AdvisedDrag {
   std::string law, partition = "none";
 };
 [[nodiscard]] AdvisedDrag advised_drag(const core::Scene& scene, DragScene kind);
+
+/// Laws that were made from beds of a kind, to compare the law of a case with; none of lone and of fixed spheres.
+[[nodiscard]] std::vector<std::string> laws_of_beds(DragScene kind);
 
 /// Why a law does not suit; empty if it does, or if nothing is known of it, as of a fitted one.
 [[nodiscard]] std::string unsuited(const std::string& law, DragScene kind);

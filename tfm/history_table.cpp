@@ -19,9 +19,9 @@ measures::Table<Told> history_table(bool compressible, bool openings) {
   }
   if (openings) {
     table.push_back({"in", "kg", "fed since the start; if an end is open to solids or they are fed",
-                     [](const Told& t, std::size_t j) { return t.in[j]; }});
+                     [](const Told& t, measures::Members j) { return measures::sum_of(t.in, j); }});
     table.push_back({"out", "kg", "left since the start; if an end is open to solids or they are fed",
-                     [](const Told& t, std::size_t j) { return t.out[j]; }});
+                     [](const Told& t, measures::Members j) { return measures::sum_of(t.out, j); }});
   }
   return table;
 }

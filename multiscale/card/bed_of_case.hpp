@@ -35,19 +35,30 @@ struct ExpectedDischarge {
   double diameters;  ///< width of the opening over the mean diameter
 };
 
+/// What one drag law makes of the bed.
+struct ByLaw {
+  std::string law;                             ///< its name; empty: Wen and Yu's correlation
+  std::optional<double> minimum_fluidisation;  ///< of the mixture, at its Sauter diameter and mean density, m/s
+  std::optional<double> height;                ///< expected of a uniform bed, m
+};
+
 struct BedOfCase {
   std::vector<SpeciesInFluid> species;
-  std::optional<double> minimum_fluidisation;  ///< of the mixture, at its Sauter diameter and mean density, m/s
+  ByLaw own;                                   ///< by the law of the case
+  std::vector<ByLaw> others;                   ///< by laws that were made from such beds
   std::optional<double> velocity;              ///< superficial, mean over the bottom at the end of the run, m/s
   Fluidisation state{};                        ///< expected
-  std::optional<double> height;                ///< expected of a uniform bed, m
+  std::vector<std::string> leaving;            ///< species that the fluid lifts out of the bed of the others
+  std::optional<double> rising_time;           ///< s, in which the top of a packed bed gets there in a liquid at least
   std::optional<ExpectedDischarge> discharge;  ///< of dry particles over dem.opening
+  std::string validity;                        ///< how far the models agree with measured beds of this kind
   [[nodiscard]] std::optional<double> velocity_ratio() const;
 };
 
 /// By the balance of the case's drag law with the buoyant weight, at the voidage of the settled bed; without a drag law
 /// or without that voidage by Wen and Yu's correlation (closures/minimum_fluidisation.hpp). Terminal velocities after
-/// Schiller and Naumann. Nothing is run. Throws core::CaseError for a fluid that is not known.
+/// Schiller and Naumann. The height is that of the species which stay. Nothing is run. Throws core::CaseError for a
+/// fluid that is not known.
 [[nodiscard]] BedOfCase bed_of_case(const core::Scene& scene);
 
 /// Geldart's class (Powder Technology 7 (1973) 285) by his lines, rho_s - rho_f in g/cm3 and d in um: D above

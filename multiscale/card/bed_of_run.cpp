@@ -84,8 +84,8 @@ bool belongs_below(const core::Species& one, const core::Species& other) {
   return one.density != other.density ? one.density > other.density : one.diameter > other.diameter;
 }
 
-std::string layers_of(const core::Scene& scene, const Inventory& all, const BedOfRun& bed) {
-  if (!bed.height || !(bed.height->mean > 0)) return "";
+Layers layers_of(const core::Scene& scene, const Inventory& all, const BedOfRun& bed) {
+  if (!bed.height || !(bed.height->mean > 0)) return Layers::unknown;
   const core::Species *lowest = nullptr, *highest = nullptr;
   double low = 0, high = 0;
   for (std::size_t j = 0; j < all.centre.size(); ++j) {
@@ -94,21 +94,31 @@ std::string layers_of(const core::Scene& scene, const Inventory& all, const BedO
     if (lowest == nullptr || centre < low) low = centre, lowest = &scene.species[j];
     if (highest == nullptr || centre > high) high = centre, highest = &scene.species[j];
   }
-  if (lowest == highest) return "";
-  if (high - low < 0.1 * bed.height->mean) return "mixed";
-  return belongs_below(*lowest, *highest) ? "layered" : "inverted";
+  if (lowest == highest) return Layers::unknown;
+  if (high - low < 0.1 * bed.height->mean) return Layers::mixed;
+  return belongs_below(*lowest, *highest) ? Layers::layered : Layers::inverted;
 }
 
 /// What has left, and as a share of what could have.
-void find_outflow(const core::Scene& scene, const Window& window, BedOfRun& bed) {
-  for (const core::Species& species : scene.species) {
-    const Series *out = window.history.find("out_" + species.name + "_kg"),
-                 *fed = window.history.find("in_" + species.name + "_kg"),
-                 *mass = window.history.find("mass_" + species.name + "_kg");
+void find_outflow(const std::vector<measures::Kind>& kinds, const Window& window, BedOfRun& bed) {
+  for (const measures::Kind& kind : kinds) {
+    const Series *out = window.history.find("out_" + kind.name + "_kg"),
+                 *fed = window.history.find("in_" + kind.name + "_kg"),
+                 *mass = window.history.find("mass_" + kind.name + "_kg");
     if (out == nullptr || mass == nullptr) continue;
     const double supplied = mass->front() + (fed != nullptr ? last(*fed) : 0);
-    bed.out[species.name] = last(*out);
-    if (supplied > 0) bed.recovery[species.name] = last(*out) / supplied;
+    bed.out[kind.name] = last(*out);
+    if (supplied > 0) bed.recovery[kind.name] = last(*out) / supplied;
+  }
+}
+
+void find_tops(const std::vector<measures::Kind>& kinds, const Window& window, BedOfRun& bed) {
+  constexpr double most_left = 0.95;
+  for (const measures::Kind& kind : kinds) {
+    const auto left = bed.recovery.find(kind.name);
+    if (kind.is_class || (left != bed.recovery.end() && left->second > most_left)) continue;
+    if (const std::optional<TimeMean> top = window.mean("top_" + kind.name + "_m"))
+      bed.tops.emplace_back(kind.name, *top);
   }
 }
 
@@ -150,6 +160,11 @@ void judge_drift(const core::Scene& scene, const Window& window, BedOfRun& bed) 
 
 }  // namespace
 
+std::string name_of(Layers layers) {
+  const char* names[] = {"", "mixed", "layered", "inverted"};
+  return names[std::size_t(layers)];
+}
+
 BedOfRun bed_of_run(const core::Scene& scene, const core::History& history) {
   BedOfRun bed;
   const Series* time = history.find("time_s");
@@ -161,14 +176,20 @@ BedOfRun bed_of_run(const core::Scene& scene, const core::History& history) {
   constexpr double least_particles = 10;  // placed one by one, fewer are no bed
   if (scene.bed.start.kind == core::StartKind::list && all.particles < least_particles) return bed;
   bed.height = window.mean("bed_height_m");
+  bed.dense = window.mean("dense_height_m");
+  bed.pressure = window.mean("pressure_drop_Pa");
   bed.drop = window.mean(measures::drop_over_weight(history));
   if (scene.species.size() > 1)
     if (const std::optional<TimeMean> mixing = window.mean("mixing")) bed.mixing = mixing->mean;
   bed.hangs = is_light(window) && !is_pressed_down(scene, all, bed);
   bed.state = state_of(scene, window, all, bed);
   bed.layers = layers_of(scene, all, bed);
-  if (bed.hangs) bed.height.reset();  // that of its top is the column's
-  find_outflow(scene, window, bed);
+  std::vector<std::string> names;
+  for (const core::Species& species : scene.species) names.push_back(species.name);
+  const std::vector<measures::Kind> kinds = measures::kinds_of(names);
+  find_outflow(kinds, window, bed);
+  if (!bed.hangs) find_tops(kinds, window, bed);
+  if (bed.hangs) bed.height.reset(), bed.dense.reset();  // that of its top is the column's
   find_discharge(scene, window, all, bed);
   judge_drift(scene, window, bed);
   return bed;

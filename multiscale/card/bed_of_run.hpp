@@ -14,16 +14,27 @@
 
 namespace polybed::multiscale {
 
+/// Which species is above; layered: the less dense or, of equal density, the smaller. Unknown: there is one species.
+enum class Layers { unknown, mixed, layered, inverted };
+
+/// As run.json has it; empty if unknown.
+[[nodiscard]] std::string name_of(Layers layers);
+
 /// Over the last quarter of the time that the history covers.
 struct BedOfRun {
   double window = 0;                         ///< s
   bool hangs = false;                        ///< lighter than the fluid, and not pressed onto the bottom
   std::optional<measures::TimeMean> height;  ///< m; of a bed that hangs nothing
-  std::optional<measures::TimeMean> drop;    ///< pressure drop over the buoyant weight
-  std::optional<double> mixing;              ///< 1 mixed, 0 separated
+  std::optional<measures::TimeMean> dense;   ///< m, top of the dense bed; likewise
+  /// Heights, m, that species reach, in the order of the case: size classes count as one. Those of which 95 % have left
+  /// the column are missing.
+  std::vector<std::pair<std::string, measures::TimeMean>> tops;
+  std::optional<measures::TimeMean> pressure;  ///< pressure drop, Pa
+  std::optional<measures::TimeMean> drop;      ///< the same over the buoyant weight
+  std::optional<double> mixing;                ///< 1 mixed, 0 separated
   Fluidisation state{};
-  std::string layers;  ///< mixed | layered (denser, or else larger, below) | inverted; empty: one species
-  std::map<std::string, double> out;       ///< kg since the start, of a scene that lets particles out
+  Layers layers{};
+  std::map<std::string, double> out;       ///< kg since the start, of a scene that lets particles out, by kinds
   std::map<std::string, double> recovery;  ///< the same over what was there at the start and was fed
   std::optional<double> discharge;         ///< kg/s, of a hopper
   bool blocked = false;                    ///< its opening is

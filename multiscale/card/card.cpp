@@ -33,7 +33,7 @@ core::Json velocities_of(const core::Scene& scene, const BedOfCase& bed) {
     if (!species.geldart.empty()) geldart[species.name] = species.geldart;
   }
   const bool fluid = scene.fluid.present();
-  fluidisation["mixture"] = core::or_null(bed.minimum_fluidisation);
+  fluidisation["mixture"] = core::or_null(bed.own.minimum_fluidisation);
   return {{"u_mf_m_s", fluid ? fluidisation : core::Json()},
           {"u_over_u_mf", core::or_null(bed.velocity_ratio())},
           {"terminal_m_s", fluid ? terminal : core::Json()},
@@ -101,15 +101,33 @@ std::string of_species(const BedOfCase& bed, std::optional<double> SpeciesInFlui
   return range ? parts.front() + " to " + parts.back() : each(parts);
 }
 
+/// The range of the laws that were made from such beds, and which they are; empty without any.
+std::string by_others(const BedOfCase& bed, std::optional<double> ByLaw::*number, double scale, const char* unit,
+                      double most) {
+  std::vector<std::string> names;
+  double low = HUGE_VAL, high = 0;
+  for (const ByLaw& one : bed.others) {
+    if (!(one.*number)) continue;
+    names.push_back(one.law);
+    low = std::min(low, scale * *(one.*number));
+    high = std::max(high, scale * *(one.*number));
+  }
+  if (names.empty()) return "";
+  const std::string range = high < most ? fmt::format("{:.3g} to {:.3g}{}", low, high, unit)
+                                        : fmt::format("{:.3g}{} up to the top of the column", low, unit);
+  return fmt::format("{} by laws of such beds: {}", low < most ? range : "up to the top of the column", each(names));
+}
+
 std::string in_kilograms(double mass) { return with_prefix(1e3 * mass, "g"); }
 
 /// Minimum fluidisation, terminal velocities and, in a gas, Geldart's classes.
 void add_velocities(const BedOfCase& bed, std::vector<std::string>& lines) {
   if (bed.species.empty()) return;
-  if (bed.minimum_fluidisation) {
+  if (bed.own.minimum_fluidisation) {
     std::string text =
         bed.species.size() > 1 ? of_species(bed, &SpeciesInFluid::minimum_fluidisation) + ", mixture " : std::string();
-    text += with_prefix(*bed.minimum_fluidisation, "m/s");
+    text += with_prefix(*bed.own.minimum_fluidisation, "m/s") + " by " +
+            (bed.own.law.empty() ? "Wen and Yu's correlation" : bed.own.law);
     if (const auto ratio = bed.velocity_ratio())
       text += fmt::format("; u = {} is {:.2g} times that", with_prefix(*bed.velocity, "m/s"), *ratio);
     lines.push_back(card_line("fluidises at", text));
@@ -140,6 +158,7 @@ void add_discharge(const ExpectedDischarge& out, std::vector<std::string>& lines
 std::string out_text(const BedOfRun& bed) {
   std::vector<std::string> parts;
   for (const auto& [name, mass] : bed.out) {
+    if (bed.out.contains(name.substr(0, name.rfind('.'))) && name.find('.') != std::string::npos) continue;  // a class
     const auto share = bed.recovery.find(name);
     parts.push_back(name + " " + in_kilograms(mass) +
                     (share == bed.recovery.end() ? "" : fmt::format(" ({:.3g} %)", 100 * share->second)));
@@ -147,14 +166,33 @@ std::string out_text(const BedOfRun& bed) {
   return each(parts);
 }
 
+/// How high the bed is, and how far up each species reaches where they part, or one is suspended above the others.
+std::string height_text(const BedOfRun& bed) {
+  constexpr double above = 1.2;  // times the top of the dense bed
+  const bool suspended = bed.dense && std::any_of(bed.tops.begin(), bed.tops.end(), [&](const auto& top) {
+                           return top.second.mean > above * bed.dense->mean;
+                         });
+  std::string text =
+      suspended ? "dense bed " + mean_text(*bed.dense, 1e3, " mm high") : mean_text(*bed.height, 1e3, " mm high");
+  const bool part = bed.tops.size() > 1 && (bed.layers == Layers::layered || bed.layers == Layers::inverted);
+  if (!(suspended || part) || bed.tops.size() > most_species) return text;
+  auto tops = bed.tops;
+  std::stable_sort(tops.begin(), tops.end(),
+                   [](const auto& a, const auto& b) { return a.second.mean < b.second.mean; });
+  std::vector<std::string> parts;
+  for (const auto& [name, top] : tops) parts.push_back(name + " up to " + mean_text(top, 1e3, " mm"));
+  return text + " (" + each(parts) + ")";
+}
+
 std::string bed_text(const BedOfRun& bed) {
   std::vector<std::string> parts;
-  for (const std::string& word : {words_of(bed.state), bed.layers})
+  for (const std::string& word : {words_of(bed.state), name_of(bed.layers)})
     if (!word.empty()) parts.push_back(word);
   if (bed.hangs && !parts.empty()) parts.emplace_back("hanging from the top");
-  if (bed.height && !is_carried(bed.state)) parts.push_back(mean_text(*bed.height, 1e3, " mm high"));
+  if (bed.height && !is_carried(bed.state)) parts.push_back(height_text(bed));
   if (bed.drop && bed.state != Fluidisation::unknown)
-    parts.push_back("pressure drop " + mean_text(*bed.drop, 1, " of the weight"));
+    parts.push_back("pressure drop " + (bed.pressure ? mean_text(*bed.pressure, 1, " Pa, ") : "") +
+                    mean_text(*bed.drop, 1, " of the weight"));
   return each(parts);
 }
 
@@ -204,11 +242,16 @@ std::string left_out_text(const LeftOut& left_out) {
 
 void write_card(core::Json& json, const core::Scene& scene, const Card& card) {
   const BedOfRun& seen = card.seen;
+  core::Json tops;
+  for (const auto& [name, top] : seen.tops) tops[name] = json_of(top);
   json["card"] = velocities_of(scene, card.expected);
   json["card"].update({
       {"state", core::text_or_null(name_of(seen.state))},
-      {"layers", core::text_or_null(seen.layers)},
+      {"layers", core::text_or_null(name_of(seen.layers))},
       {"bed_height_m", json_of(seen.height)},
+      {"dense_height_m", json_of(seen.dense)},
+      {"tops_m", tops},
+      {"pressure_drop_Pa", json_of(seen.pressure)},
       {"pressure_drop_over_weight", json_of(seen.drop)},
       {"mixing", core::or_null(seen.mixing)},
       {"out_kg", json_or_null(seen.out)},
@@ -225,27 +268,52 @@ void write_card(core::Json& json, const core::Scene& scene, const Card& card) {
 
 void write_expected(core::Json& json, const core::Scene& scene, const BedOfCase& bed) {
   json["expected"] = velocities_of(scene, bed);
+  core::Json laws = core::Json::object();
+  for (const ByLaw& one : bed.others)
+    laws[one.law] = {{"u_mf_m_s", core::or_null(one.minimum_fluidisation)},
+                     {"bed_height_m", core::or_null(one.height)}};
   json["expected"].update({
       {"state", core::text_or_null(name_of(bed.state))},
-      {"bed_height_m", core::or_null(bed.height)},
+      {"law", core::text_or_null(bed.own.law)},
+      {"bed_height_m", core::or_null(bed.own.height)},
+      {"by_laws_of_beds", laws},
+      {"leaving", bed.leaving},
+      {"rising_time_s", core::or_null(bed.rising_time)},
+      {"validity", core::text_or_null(bed.validity)},
       {"discharge_kg_s", bed.discharge ? core::Json(bed.discharge->rate) : core::Json()},
   });
 }
 
 std::vector<std::string> expectation_lines(const core::Scene& scene, const BedOfCase& bed) {
   std::vector<std::string> lines;
+  const double top = scene.column.size[1];
   if (bed.state != Fluidisation::unknown) {
     std::string text = words_of(bed.state);
-    const double top = scene.column.size[1];
-    if (bed.height)
-      text += *bed.height < top ? fmt::format(", about {:.0f} mm high by the balance of forces", 1e3 * *bed.height)
-                                : ", up to the top of the column by the balance of forces";
-    if (bed.height)
+    if (bed.own.height) {
+      text += *bed.own.height < top ? fmt::format(", about {:.0f} mm high by {}", 1e3 * *bed.own.height, bed.own.law)
+                                    : ", up to the top of the column by " + bed.own.law;
       text += fmt::format(" (settled {:.0f} mm, column {:.0f} mm)", 1e3 * scene.bed.static_height, 1e3 * top);
+    }
+    if (!bed.leaving.empty())
+      text += fmt::format("; lifted {}: {}", scene.column.outlet == core::Outlet::open ? "out" : "to the top",
+                          each(bed.leaving));
     lines.push_back(card_line("expect", text));
+    if (const std::string others = by_others(bed, &ByLaw::height, 1e3, " mm", 1e3 * top); !others.empty())
+      lines.push_back(card_line("", others));
   }
   if (bed.discharge) add_discharge(*bed.discharge, lines);
+  const std::size_t before = lines.size();
   add_velocities(bed, lines);
+  const std::string others = by_others(bed, &ByLaw::minimum_fluidisation, 1e3, " mm/s", HUGE_VAL);
+  if (!others.empty()) lines.insert(lines.begin() + std::ptrdiff_t(before) + 1, card_line("", others));
+  if (bed.rising_time) {
+    constexpr double window = 0.75;  // of a run lies before the last quarter, over which its card judges
+    std::string text = fmt::format("after {:.2g} s at least: the top rises no faster than u - u_mf", *bed.rising_time);
+    if (window * scene.run.until < *bed.rising_time)
+      text += fmt::format("; the run ends at {:.4g} s, too early: see --until steady", scene.run.until);
+    lines.push_back(card_line("steady", text));
+  }
+  if (!bed.validity.empty()) lines.push_back(card_line("validity", bed.validity + "; polybed validate --list"));
   return lines;
 }
 

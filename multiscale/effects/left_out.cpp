@@ -169,6 +169,17 @@ std::string called_for_line(const LeftOut& left_out) {
                      fmt::join(named, ", "));
 }
 
+std::string unsuited_line(const core::Scene& scene) {
+  const std::string law = core::law_of(scene, "drag");
+  if (core::is_off(law) || relevance::ignores_neighbours(law)) return "";  // called_for_line has the latter
+  const relevance::Survey survey = relevance::survey(scene);
+  const std::string why = relevance::unsuited(law, survey.drag_scene);
+  if (why.empty() || !survey.has_fluid) return "";
+  const relevance::AdvisedDrag better = relevance::advised_drag(scene, survey.drag_scene);
+  return fmt::format("drag: {}; take {}{}", why, better.law,
+                     core::is_law(better.partition) ? " with partition = \"" + better.partition + "\"" : "");
+}
+
 std::string chosen_line(const core::Scene& scene) {
   if (scene.chooser.chosen.empty()) return "";
   std::vector<std::string> on;

@@ -47,6 +47,9 @@ void write_left_out(core::Json& json, const LeftOut& left_out);
 /// A line that names what the scene calls for and the case has off, or a drag law that cannot be right; empty without.
 [[nodiscard]] std::string called_for_line(const LeftOut& left_out);
 
+/// A line that says why the drag law that the case names does not suit its bed, and which one does; empty if it suits.
+[[nodiscard]] std::string unsuited_line(const core::Scene& scene);
+
 /// A line that names what was chosen where the case left it to the chooser, and counts what was left out; empty where
 /// it left nothing.
 [[nodiscard]] std::string chosen_line(const core::Scene& scene);

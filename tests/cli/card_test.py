@@ -8,8 +8,8 @@ import numpy as np
 import program
 from program import CASE, DONE, ROOT, SMALL, Scratch, history, small_bed, strict_json
 
-KEYS = {"u_mf_m_s", "u_over_u_mf", "terminal_m_s", "geldart", "state", "layers", "bed_height_m", "pressure_drop_over_weight", "mixing",
-        "out_kg", "recovery", "discharge_kg_s", "steady", "limited_by", "left_out", "time_s", "lines"}
+KEYS = {"u_mf_m_s", "u_over_u_mf", "terminal_m_s", "geldart", "state", "layers", "bed_height_m", "dense_height_m", "tops_m",
+        "pressure_drop_Pa", "pressure_drop_over_weight", "mixing", "out_kg", "recovery", "discharge_kg_s", "steady", "limited_by", "left_out", "time_s", "lines"}
 HEADINGS = ("bed ", "fluidises at ", "falls at ", "mixing ", "steady ", "step ", "left out ", "time ")
 SCREEN = 25  # lines
 TEMPLATES = ROOT / "cases/templates"
@@ -35,6 +35,9 @@ class Card(Scratch):
             self.assertEqual(card["time_s"], {"taken": record["cpu_s"], "predicted": record["prediction"]["cpu_s"]})
             self.assertIsNone(card["discharge_kg_s"])
             self.assertIsNone(card["geldart"])
+            self.assertEqual(set(card["tops_m"]), {"fine", "coarse"})
+            pressure = card["pressure_drop_Pa"]["value"]
+            self.assertRegex(last[0], rf"pressure drop {pressure:.4g}( ± \S+)? Pa, {card['pressure_drop_over_weight']['value']:.4g}( ± \S+)? of the weight$")
 
     def test_a_bed_as_dense_as_its_fluid_bears_no_share_of_its_weight(self):
         keys = ("fluid.density=1000", "species.0.density=1000", "species.1.density=1000", "tfm.max_packing=0.64", "inlet.superficial_velocity=0",
@@ -95,6 +98,62 @@ class Card(Scratch):
             self.assertAlmostEqual(18 * mu * u * f / d**2, (density - rho) * 9.81 * 0.38, delta=1e-6 * 9.81 * (density - rho))
             self.assertIn(name, card["terminal_m_s"])
         self.assertAlmostEqual(card["u_over_u_mf"], 0.03 / card["u_mf_m_s"]["mixture"], places=9)
+
+    def test_silt_that_leaves_does_not_count_as_bed(self):
+        """Sand of two size classes settles under silt that rises through a tall column. By hand: the silt falls at some 2 mm/s, the sand
+        at 60 and more; 12 mm/s lifts the one and hardly expands the other."""
+        silt = """[column]
+size = ["20 mm", "300 mm"]
+cells = [1, 60]
+sides = "periodic"
+outlet = "open"
+[fluid]
+name = "water"
+temperature = "20 degC"
+[[species]]
+name = "silt"
+diameter = "60 um"
+density = 2000
+[[species]]
+name = "sand"
+density = 2650
+distribution = "lognormal"
+median = "0.7 mm"
+deviation = 0.15
+classes = 2
+[bed]
+volume_share = [0.3, 0.7]
+static_height = "60 mm"
+solids_fraction = 0.55
+[inlet]
+superficial_velocity = "12 mm/s"
+[effects]
+others = "none"
+drag = "wen_yu"
+partition = "brinkman_oseen"
+solids_stress = "frictional"
+[run]
+until = "20 s"
+[output]
+history_every = "20 ms"
+"""
+        case, run = self.write("case.toml", silt), self.folder / "run"
+        expected = strict_json(self.ends(DONE, "check", case, "--json").stdout)["expected"]
+        self.assertEqual(expected["leaving"], ["silt"])
+        done = self.ends(DONE, "tfm", case, "-o", run, "--no-picture")
+        card, rows = self.card(run), history(run)
+        for column in ("mass_{}_kg", "out_{}_kg"):
+            whole, parts = (np.array([rows[column.format(name)] for name in names]).sum(axis=0) for names in (["sand"], ["sand.1", "sand.2"]))
+            np.testing.assert_allclose(whole, parts, rtol=1e-14)
+        self.assertEqual(set(card["tops_m"]), {"silt", "sand"})
+        self.assertAlmostEqual(card["recovery"]["sand"] * rows["mass_sand_kg"][0], card["out_kg"]["sand.1"] + card["out_kg"]["sand.2"], places=14)
+        dense, silt, sand = card["dense_height_m"]["value"], card["tops_m"]["silt"]["value"], card["tops_m"]["sand"]["value"]
+        self.assertAlmostEqual(dense, sand, delta=0.01)  # two cells
+        self.assertAlmostEqual(expected["bed_height_m"], sand, delta=0.01)  # two cells
+        self.assertGreater(silt, 0.2)
+        self.assertGreater(card["bed_height_m"]["value"], 0.2, "the silt counts")
+        self.assertRegex(done.stderr, rf"(?m)^bed +fluidised.* dense bed {1e3 * dense:.4g}.* mm high \(sand up to .* mm, silt up to .* mm\)")
+        self.assertRegex(done.stderr, r"(?m)^has left +sand .*, silt .*$")
 
     def test_a_hopper_has_a_discharge(self):
         run = self.folder / "hopper"
@@ -186,7 +245,9 @@ class Screen(Scratch):
 
     def test_it_says_what_to_expect(self):
         text = self.ends(DONE, "check", CASE).stdout
-        for line in (r"expect +fluidised, about 346 mm high", r"fluidises at +fine .* coarse .* mixture .*; u = 30 mm/s is 21 times that",
+        for line in (r"expect +fluidised, about 346 mm high by cello", r"\n +\d+ to \d+ mm by laws of such beds: wen_yu, di_felice, richardson_zaki\n",
+                     r"fluidises at +fine .* coarse .* mixture .* by cello; u = 30 mm/s is 21 times that",
+                     r"note: drag: cello is made for held spheres: .*; take wen_yu with partition = \"brinkman_oseen\"",
                      r"falls at +fine 46.5 mm/s, coarse 66.6 mm/s", r"left out +tfm: forces of .* % of the weight"):
             self.assertRegex(text, line)
         many = self.ends(DONE, "check", ROOT / "cases/filter-backwash/case.toml").stdout
@@ -198,6 +259,35 @@ class Screen(Scratch):
         for velocity, state in (("1 mm/s", "packed"), ("1 m/s", "carried up")):
             told = self.ends(DONE, "check", CASE, "--set", f"inlet.superficial_velocity={velocity}").stdout
             self.assertRegex(told, f"expect +{state}")
+
+    def test_it_says_when_a_bed_can_be_steady(self):
+        """The top of a packed bed rises at u - u_mf: from 100 mm at 40 mm/s less the velocity that the card names."""
+        case = TEMPLATES / "liquid-bed/case.toml"
+        expected = strict_json(self.ends(DONE, "check", case, "--json").stdout)["expected"]
+        self.assertEqual(expected["law"], "richardson_zaki")
+        heights = [law["bed_height_m"] for law in expected["by_laws_of_beds"].values()]
+        self.assertTrue(min(heights) <= expected["bed_height_m"] <= max(heights), heights)
+        self.assertAlmostEqual(expected["rising_time_s"], (expected["bed_height_m"] - 0.1) / (0.04 - expected["u_mf_m_s"]["mixture"]), places=12)
+        told = [self.ends(DONE, "check", case, "--until", until).stdout for until in ("30 s", "1 s")]
+        self.assertRegex(told[0], r"(?m)^steady +after [\d.]+ s at least: the top rises no faster than u - u_mf$")
+        self.assertRegex(told[1], r"(?m)^steady +after .*; the run ends at 1 s, too early: see --until steady$")
+
+    def test_the_validity_is_that_of_the_recorded_comparisons(self):
+        rows = [row for block in strict_json((ROOT / "cases/validation/recorded.json").read_text())["blocks"] for row in block["rows"]]
+        worst = {}
+        for row in rows:
+            if row["entry"] == "expansion-in-water" and row["model"] == "tfm":
+                law = row["run"].rpartition("-")[0]
+                worst[law] = max(worst.get(law, 0), row["result"][0] - row["measured"][0])
+        over = {(row["entry"], row["quantity"]): row["result"][0] / row["measured"][0] - 1 for row in rows}
+        inversion = next(row for row in rows if row["entry"] == "matsuura-akehata")
+        self.assertEqual(f"{worst['wen_yu']:.2f}", f"{worst['cello']:.2f}")
+        sentences = {TEMPLATES / "liquid-bed/case.toml": f"voidage at most {worst['di_felice']:.2f} too high by di_felice, {worst['cello']:.2f} by wen_yu and cello",
+                     CASE: f"inverts at {1e3 * inversion['result'][0]:.3g} mm/s by balance, {1e3 * inversion['measured'][0]:.3g} measured",
+                     TEMPLATES / "gas-bed/case.toml": f"the height of one comes out {-100 * over['van-wachem', 'bed height']:.0f} % low, "
+                                                      f"u_mf of the other {100 * over['taghipour', 'u_mf']:.0f} % high"}
+        for case, sentence in sentences.items():
+            self.assertRegex(self.ends(DONE, "check", case).stdout, rf"(?m)^validity +.*{sentence}; polybed validate --list$")
 
 
 if __name__ == "__main__":

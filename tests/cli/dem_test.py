@@ -54,8 +54,8 @@ greatest_speed = "0.1 m/s"
 until = "20 ms"
 """
 RESULTS = ("checkpoint.h5", "particles.h5", "profiles.h5")
-COLUMNS = ["time_s", "dt_s", "bed_height_m", "pressure_drop_Pa", "buoyant_weight_Pa", "centre_fine_m", "mass_fine_kg",
-           "centre_coarse_m", "mass_coarse_kg", "interface_m", "kinetic_J", "rotational_J", "elastic_J", "potential_J",
+COLUMNS = ["time_s", "dt_s", "bed_height_m", "dense_height_m", "pressure_drop_Pa", "buoyant_weight_Pa", "centre_fine_m", "mass_fine_kg",
+           "top_fine_m", "centre_coarse_m", "mass_coarse_kg", "top_coarse_m", "interface_m", "kinetic_J", "rotational_J", "elastic_J", "potential_J",
            "dissipated_J", "work_J", "contacts", "max_overlap_m", "max_contact_force_N"]
 
 

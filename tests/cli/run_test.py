@@ -43,8 +43,8 @@ class Run(Scratch):
 
     def check_history(self, directory):
         columns = history(directory)
-        expected = ["time_s", "dt_s", "bed_height_m", "pressure_drop_Pa", "buoyant_weight_Pa"]
-        expected += [f"{q}_{s}_{unit}" for s in SPECIES for q, unit in (("centre", "m"), ("mass", "kg"))] + ["interface_m"]
+        expected = ["time_s", "dt_s", "bed_height_m", "dense_height_m", "pressure_drop_Pa", "buoyant_weight_Pa"]
+        expected += [f"{q}_{s}_{unit}" for s in SPECIES for q, unit in (("centre", "m"), ("mass", "kg"), ("top", "m"))] + ["interface_m"]
         self.assertEqual(list(columns)[:len(expected)], expected)
         # every 0.01 s from 0 to 0.3 s, both ends
         np.testing.assert_allclose(columns["time_s"], np.arange(31) * 0.01, atol=1e-12)

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "closures/bed_expansion.hpp"
+
 namespace polybed::closures {
 namespace {
 
@@ -13,6 +15,9 @@ TEST(MinimumFluidisation, OfWenAndYuByHand) {
   const double archimedes = 1.5 * 9.81 * 1e-21 / 1e-12;
   EXPECT_NEAR(minimum_fluidisation(1e-7, 1500, 1000, 1e-3, 9.81) / (archimedes * 0.0408 / 67.4 * 10), 1, 1e-8);
 }
+
+/// 54 mm at 40 - 13 mm/s.
+TEST(RisingTime, OfAPlugByHand) { EXPECT_NEAR(rising_time(0.054, 0.040, 0.013), 2, 1e-14); }
 
 }  // namespace
 }  // namespace polybed::closures

@@ -33,10 +33,17 @@ std::vector<std::string> columns_of(const Table<Source>& table) {
   return found;
 }
 
+Value named(const std::string& column, const Bed& bed, const std::vector<std::string>& names) {
+  for (const Single<Bed>& measure : singles(bed_table(), names))
+    if (measure.column() == column) return measure.of(bed);
+  return std::nullopt;
+}
+
 TEST(BedTable, HistoryHasTheseColumnsInThisOrder) {
   EXPECT_THAT(columns_of(read_by(&Readers::history, bed_table())),
-              ElementsAre("time_s", "dt_s", "bed_height_m", "pressure_drop_Pa", "buoyant_weight_Pa", "centre_fine_m",
-                          "mass_fine_kg", "centre_coarse_m", "mass_coarse_kg", "interface_m", "mixing"));
+              ElementsAre("time_s", "dt_s", "bed_height_m", "dense_height_m", "pressure_drop_Pa", "buoyant_weight_Pa",
+                          "centre_fine_m", "mass_fine_kg", "top_fine_m", "centre_coarse_m", "mass_coarse_kg",
+                          "top_coarse_m", "interface_m", "mixing"));
 }
 
 TEST(BedTable, TheDriftIsToldOfHeightsTheBedsFirst) {
@@ -58,11 +65,7 @@ TEST(BedTable, EveryRowHasANameThatAColumnCanHaveAUnitAndADefinition) {
 
 TEST(BedTable, OfTwoLayersByHand) {
   const Bed bed = two_layers();
-  const auto measured = [&](const std::string& column) -> Value {
-    for (const Single<Bed>& measure : singles(bed_table(), species))
-      if (measure.column() == column) return measure.of(bed);
-    return std::nullopt;
-  };
+  const auto measured = [&](const std::string& column) { return named(column, bed, species); };
   EXPECT_EQ(measured("time_s"), 2);
   EXPECT_EQ(measured("dt_s"), 0.5);
   EXPECT_EQ(measured("mass_coarse_kg"), 4);
@@ -79,9 +82,38 @@ TEST(BedTable, WhatAModelKnowsBetterStandsInPlaceOfTheProfiles) {
   bed.pressure_drop = 48;
   bed.centre = {0.12, std::nullopt};
   const std::vector<Value> row = values(singles(read_by(&Readers::history, bed_table()), species), bed);
-  EXPECT_EQ(row[3], 48);
-  EXPECT_EQ(row[5], 0.12);
-  EXPECT_EQ(row[7], std::nullopt);
+  EXPECT_EQ(row[4], 48);
+  EXPECT_EQ(row[6], 0.12);
+  EXPECT_EQ(row[9], std::nullopt);
+}
+
+/// 1 in 3 of the solids is silt that is suspended in all ten slabs of 0.1 m, over sand of 0.5 in two of them. The bed's
+/// height is that of the silt: z_0.80 lies in it. Half of the mean of the lower half, (0.5 + 0.05)/2, is between sand
+/// and silt at 0.15 + 0.1 0.275/0.5.
+TEST(BedTable, SandUnderSuspendedSiltHasAHeightOfItsOwn) {
+  const Bed bed{.profile = {0.1, {{0.5, 0.5, 0, 0, 0, 0, 0, 0, 0, 0}, std::vector<double>(10, 0.05)}, {}}};
+  const std::vector<std::string> names{"sand", "silt"};
+  EXPECT_NEAR(*named("bed_height_m", bed, names), 1.0, 1e-14);
+  EXPECT_NEAR(*named("dense_height_m", bed, names), 0.205, 1e-14);
+  EXPECT_NEAR(*named("top_sand_m", bed, names), 0.2, 1e-14);
+  EXPECT_NEAR(*named("top_silt_m", bed, names), 1.0, 1e-14);
+}
+
+TEST(BedTable, SizeClassesAreMeasuredAsOneSpeciesToo) {
+  const std::vector<std::string> names{"fines", "sand.1", "sand.2", "d0.5", "d0.8"};
+  std::vector<std::string> kinds, classes;
+  for (const Kind& kind : kinds_of(names)) (kind.is_class ? classes : kinds).push_back(kind.name);
+  EXPECT_THAT(kinds, ElementsAre("fines", "d0.5", "d0.8", "sand"));
+  EXPECT_THAT(classes, ElementsAre("sand.1", "sand.2"));
+  // 0.1 of class 1 in the lowest slab, 0.3 of class 2 in the next: centre (0.1 0.05 + 0.3 0.15)/0.4, half of their mean
+  // above z_0.80, 0.3, at 0.15 + 0.1 0.15/0.3
+  Bed bed{.profile = {0.1, {{0, 0, 0}, {0.1, 0, 0}, {0, 0.3, 0}, {0, 0, 0}, {0, 0, 0}}, {}}};
+  bed.mass = {0, 1, 3, 0, 0};
+  EXPECT_NEAR(*named("centre_sand_m", bed, names), 0.125, 1e-15);
+  EXPECT_NEAR(*named("top_sand_m", bed, names), 0.2, 1e-15);
+  EXPECT_EQ(*named("mass_sand_kg", bed, names), 4);
+  bed.centre = {{}, 0.04, 0.16, {}, {}};  // as a run of particles knows them
+  EXPECT_NEAR(*named("centre_sand_m", bed, names), (0.04 + 3 * 0.16) / 4, 1e-15);
 }
 
 TEST(BedTable, AProfileWithoutPressureHasNoDropAndOneSpeciesNoDifference) {
