@@ -82,7 +82,7 @@ until = "{until}"
 
 def environment(scratch):
     """One rank needs neither network nor daemon: without them MPI starts in a sixth of the time."""
-    return os.environ | open_mpi.ONE_PROCESS | {"OMPI_MCA_orte_tmpdir_base": scratch, "POLYBED_TYPED": "polybed"}
+    return {"POLYBED_TYPED": "polybed"} | os.environ | open_mpi.ONE_PROCESS | {"OMPI_MCA_orte_tmpdir_base": scratch}
 
 
 def command(words, picture=False):

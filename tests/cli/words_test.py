@@ -5,6 +5,7 @@ import pty
 import re
 import subprocess
 import tomllib
+import unittest.mock
 
 import program
 from program import CASE, DONE, ROOT, WRONG_CASE, Scratch, run_all, small_bed, strict_json
@@ -56,6 +57,14 @@ class Templates(Scratch):
             self.assertNotIn(symbol, text)
             self.assertIn(symbol, details)
         self.assertIn("Cello 2009, eq. 3.24", self.ends(DONE, "explain", "ergun").stdout)
+
+    def test_printed_commands_begin_with_what_was_typed(self):
+        """What the launcher hands over, as a word for a shell; else the first word of the command line."""
+        with unittest.mock.patch.dict(os.environ, POLYBED_TYPED="./my polybed"):
+            self.assertIn("  './my polybed' check", self.ends(DONE, "new", self.folder / "a", "--from", "sphere").stdout)
+        plain = {name: value for name, value in os.environ.items() if name != "POLYBED_TYPED"}
+        done = subprocess.run([program.PROGRAM, "new", self.folder / "b", "--from", "sphere"], env=plain, capture_output=True, text=True, check=True)
+        self.assertIn(f"  {program.PROGRAM} check", done.stdout)
 
     def test_refusals(self):
         self.assertIn("did you mean 'hopper'", self.ends(WRONG_CASE, "new", self.folder / "a", "--from", "hoper").stderr)

@@ -3,7 +3,7 @@
 import numpy as np
 
 from polybed.drawing.maps import Group, draw_maps
-from polybed.drawing.style import FEW_SOLIDS, greatest_fraction, in_plane, shown_height, title_of, vector_in_plane
+from polybed.drawing.style import FEW_SOLIDS, TRACE, greatest_fraction, in_plane, shown_height, title_of, vector_in_plane
 from polybed.drawing.units import fitting
 
 THIN = 0.05  # of the scale of all species, on which less looks like nothing
@@ -19,7 +19,7 @@ def fractions(run, step, classes=True):
 
 def thin_apart(group):
     """A group, and for each species that is suspended so thinly that its map would look empty a group with a scale of its own."""
-    thin = [0 < values.max() < THIN * group.limits[1] for _, values in group.maps]
+    thin = [TRACE < values.max() < THIN * group.limits[1] for _, values in group.maps]
     group_of = {own: [one for one, is_thin in zip(group.maps, thin) if is_thin == own] for own in (False, True)}
     own = [Group(group.label, group.colours, (0, float(one[1].max())), [one]) for one in group_of[True]]
     return [Group(group.label, group.colours, group.limits, group_of[False]), *own]

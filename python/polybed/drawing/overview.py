@@ -11,6 +11,7 @@ from polybed.read import nearest
 
 MAP_HEIGHT = 5.2  # inches
 MAP_WIDTHS = (0.9, 3.4)  # inches, least and most
+SUSPENDED = 1.2  # times the top of the dense bed: above that the card, too, shows both heights
 
 
 def draw_profiles(axes, run, time):
@@ -46,6 +47,9 @@ def draw_history(axes, run, time):
             axes.plot(t, column * factor, label=f"centre of {name}", **species_line(n))
     if "bed_height_m" in history:
         axes.plot(t, history["bed_height_m"] * factor, color=GREY, linestyle="--", linewidth=1, label="bed height")
+        dense = history.get("dense_height_m", history["bed_height_m"])
+        if (history["bed_height_m"] > SUSPENDED * dense).any():
+            axes.plot(t, dense * factor, color=GREY, linestyle=":", linewidth=1, label="dense bed")
     axes.axvline(time, color=PALE, linewidth=0.8, zorder=0)
     axes.set_xlim(t[0], t[-1] if t[-1] > t[0] else t[0] + 1)
     axes.set_ylim(bottom=0)
