@@ -4,9 +4,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <optional>
 #include <vector>
+
+#ifdef __x86_64__
+#include <emmintrin.h>
+#endif
 
 #include "dem/particles.hpp"
 
@@ -217,5 +222,16 @@ struct FixedPoint {
     return {std::ldexp(1.0, q), std::ldexp(1.0, -q)};
   }
 };
+
+/// Adds the whole units of a force. Forces beyond all bounds wrap: what they come from, an overlap or a speed, ends the
+/// run before the next step. The conversion of C++ is undefined for them, the processor's instruction for it is not.
+inline void add_units(double units, std::int64_t& sum) {
+#ifdef __x86_64__
+  const std::int64_t whole = _mm_cvttsd_si64(_mm_set_sd(units));
+#else
+  const std::int64_t whole = std::abs(units) < 0x1p63 ? std::int64_t(units) : std::numeric_limits<std::int64_t>::min();
+#endif
+  sum = std::int64_t(std::uint64_t(sum) + std::uint64_t(whole));
+}
 
 }  // namespace polybed::dem

@@ -29,6 +29,13 @@ std::vector<core::Rule> rules(const std::vector<const Maker*>& list) {
   return relevance::joined({relevance::rules_of(menu_of(list)), rules_of_keys(list)});
 }
 
+double longest_step(const core::Scene& scene, const Materials& materials) {
+  constexpr double shape = 3;  // a contact lasts 2.9 times its greatest overlap over its speed
+  double radius = 0;
+  for (const PairMaterial& pair : materials.kinds()) radius = std::max(radius, pair.least_radius);
+  return shape * scene.dem.max_overlap * 2 * radius / scene.dem.steps_per_contact;
+}
+
 PairLaws make_pair_laws(const core::Scene& scene, const Materials& materials, const std::vector<const Maker*>& list) {
   core::refuse(rules(list), scene);
   PairLaws laws;

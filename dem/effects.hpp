@@ -61,16 +61,17 @@ class RollingLaw {
 class CohesionLaw {
  public:
   virtual ~CohesionLaw() = default;
-  virtual void act(ContactBatch& batch) const = 0;
+  /// \param dt  s, of the step that led here; 0: none did
+  virtual void act(ContactBatch& batch, double dt) const = 0;
   [[nodiscard]] virtual int memory_size() const = 0;
-  /// Adds the energy of the attraction, J; 0 far apart.
-  virtual void add_energy(const ContactBatch& batch, ContactBatch::Row& stored) const = 0;
+  /// Adds the energy of the attraction after a step of dt, J; 0 far apart.
+  virtual void add_energy(const ContactBatch& batch, ContactBatch::Row& stored, double dt) const = 0;
   /// Adds what the next act() loses, as when surfaces jump into contact, J.
   virtual void add_loss(const ContactBatch& batch, ContactBatch::Row& lost) const = 0;
   /// m, beyond contact.
   [[nodiscard]] virtual double reach() const = 0;
-  /// Greatest attraction of any pair, N.
-  [[nodiscard]] virtual double pull_off() const = 0;
+  /// Greatest attraction, N.
+  [[nodiscard]] virtual double pull_off(int kind) const = 0;
 };
 
 /// Slot Pair, resistance of the fluid between surfaces that nearly touch, along n; no energy is stored.
@@ -114,6 +115,10 @@ struct PairLaws {
     return size;
   }
 };
+
+/// How far the surfaces of a contact move against each other in one step at most, m: attractions that jump as they end
+/// reach as much further.
+[[nodiscard]] double longest_step(const core::Scene& scene, const Materials& materials);
 
 /// The laws that a scene names; throws core::CaseError for a scene that breaks a rule of the effects. Each law is given
 /// its place in the memory of a contact: that of the normal force first, then friction's, rolling's, cohesion's, the

@@ -1,5 +1,7 @@
 #include "dem/invariants.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -56,11 +58,13 @@ Invariants::Invariants(const Model& model, RunStart start, bool ledger)
   constexpr double ledger_limit = 1e-3;      // of the greatest energy met: V5
   constexpr double fluid_mass_limit = 1e-4;  // of what was there or came in
   const char* report = "that is a fault of the program: report it with the case";
+  const bool stated = model.limits().dt != model.limits().all.front().dt;
   if (ledger)
     worst_.push_back({.name = "energy",
                       .limit = ledger_limit,
                       .judged = true,
-                      .remedy = "take shorter steps: raise dem.steps_per_contact, or lower dem.fixed_step"});
+                      .remedy = fmt::format("take shorter steps: {}",
+                                            stated ? "lower dem.fixed_step" : "raise dem.steps_per_contact")});
   worst_.push_back({.name = "particle count", .limit = 0, .judged = true, .remedy = report});
   const Coupling* coupling = model.coupling();
   if (coupling != nullptr && coupling->flow().compressible() != nullptr)
@@ -82,8 +86,9 @@ double energy_of_a_short_fall(const Model& model, const std::vector<std::int64_t
 /// Of the ledger's differences from the energy at the start against the greatest energy met: V5.
 double Invariants::energy_miss(const Totals& now) {
   // In a viscous fluid, or at a start with overlaps, little is ever kinetic: it is work of the fluid, or in springs.
-  greatest_energy_ = std::max(
-      {greatest_energy_, now.kinetic + now.rotational, now.dissipated, std::abs(now.elastic), std::abs(now.work)});
+  // A pull that has just begun has done little work, and stands for what it will do.
+  greatest_energy_ = std::max({greatest_energy_, now.kinetic + now.rotational, now.dissipated, std::abs(now.elastic),
+                               std::abs(now.work), now.pull});
   const double scale = std::max(greatest_energy_, energy_of_a_short_fall(model_, start_.number));
   return scale > 0 ? ledger_miss(now, start_.energy, scale) : 0;
 }

@@ -90,9 +90,9 @@ double Ledger::work_of_films(std::size_t particle, const Vector& missed) const {
 void Ledger::add_films(const ContactBatch& batch, const Row& force, bool wall) {
   for (int c = 0; c < batch.count; ++c)
     for (std::size_t k = 0; k < 3; ++k) {
-      const auto units = std::int64_t(force[c] * batch.distance[k][c] * force_.per_unit);
-      of_films_[std::size_t(batch.first[c])][k] += units;
-      if (!wall) of_films_[std::size_t(batch.second[c])][k] -= units;
+      const double units = force[c] * batch.distance[k][c] * force_.per_unit;
+      add_units(units, of_films_[std::size_t(batch.first[c])][k]);
+      if (!wall) add_units(-units, of_films_[std::size_t(batch.second[c])][k]);
     }
 }
 

@@ -44,7 +44,7 @@ void each_contact(const Model& model, const Contacts& contacts, bool walls, See&
     model.laws().normal->act(batch);
     if (model.laws().tangential) model.laws().tangential->energy(batch, stored);
     if (model.laws().rolling) model.laws().rolling->add_energy(batch, stored);
-    model.laws().each_attraction([&](const CohesionLaw& law) { law.add_energy(batch, stored); });
+    model.laws().each_attraction([&](const CohesionLaw& law) { law.add_energy(batch, stored, model.limits().dt); });
     for (int c = 0; c < batch.count; ++c) {
       const Contacts::Pair& pair = contacts.pairs[std::size_t(contacts.touching[begin + std::size_t(c)])];
       if (std::size_t(pair.first) >= particles.owned) continue;
@@ -53,11 +53,23 @@ void each_contact(const Model& model, const Contacts& contacts, bool walls, See&
   }
 }
 
+/// Work of a pull from the touch to the overlap at which the normal force balances it, J.
+double work_until_held(const NormalLaw& normal, int kind, double pull) {
+  constexpr double overlap = 1e-6;  // any: force is a power of it
+  const double force = normal.force_at(kind, overlap);
+  const double power = force * overlap / normal.energy(kind, overlap) - 1;
+  return pull * overlap * std::pow(pull / force, 1 / power);
+}
+
 /// Elastic energy and that of attraction, number and extremes of contacts that this rank counts.
 void add_contacts(const Model& model, const Contacts& contacts, bool walls, Sum& elastic, Totals& totals) {
+  const PairLaws& laws = model.laws();
   each_contact(model, contacts, walls, [&](const Contacts::Pair&, double energy, const ContactBatch& batch, int c) {
     elastic.add(energy);
     if (batch.overlap[c] <= 0) return;  // held by cohesion across a gap
+    laws.each_attraction([&](const CohesionLaw& law) {
+      totals.pull = std::max(totals.pull, work_until_held(*laws.normal, batch.kind[c], law.pull_off(batch.kind[c])));
+    });
     ++totals.contacts;
     totals.max_overlap = std::max(totals.max_overlap, batch.overlap[c]);
     totals.max_force = std::max(totals.max_force, batch.elastic[c]);
@@ -107,7 +119,8 @@ TotalsOfRanks::TotalsOfRanks(const Model& model) : model_(model) {
 }
 
 void TotalsOfRanks::put_greatest_into(core::Reduction& all) {
-  for (double* value : {&greatest_.max_overlap, &greatest_.max_force, &greatest_.greatest_speed}) all.greatest(*value);
+  for (double* value : {&greatest_.max_overlap, &greatest_.max_force, &greatest_.greatest_speed, &greatest_.pull})
+    all.greatest(*value);
 }
 
 Totals TotalsOfRanks::totals() const {

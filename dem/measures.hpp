@@ -24,6 +24,7 @@ struct Totals {
   double max_force = 0;       ///< N, elastic
   Vector momentum{};          ///< kg m/s
   double greatest_speed = 0;  ///< m/s
+  double pull = 0;            ///< what an attraction does from the touch to where the springs hold it, the most, J
   double rounding = 0;        ///< of rounding_of_places(), and of what sums cut off, J
 
   [[nodiscard]] double sum() const {

@@ -158,10 +158,15 @@ Speeds expected_speeds(const core::Scene& scene, const Materials& materials, con
   return {speed, speed};
 }
 
-FixedPoint force_unit(const core::Scene& scene, const Materials& materials, const PairLaws& laws) {
+FixedPoint force_unit(const core::Scene& scene, const Materials& materials, const PairLaws& laws, double speed) {
+  // Of particles that their contacts can stop, the dashpot and friction add hardly more than the elastic force.
+  constexpr double reserve = 4;
   const auto force = [&](int kind) {
-    const double overlap = scene.dem.max_overlap * 2 * materials.kinds()[std::size_t(kind)].least_radius;
-    return laws.normal->force_at(kind, overlap);
+    const PairMaterial& pair = materials.kinds()[std::size_t(kind)];
+    const double overlap = scene.dem.max_overlap * 2 * pair.least_radius;
+    const double dashpot =
+        2 * laws.normal->damping_ratio(kind) * std::sqrt(pair.mass * laws.normal->stiffness_at(kind, overlap)) * speed;
+    return std::max(laws.normal->force_at(kind, overlap), dashpot / (reserve - 1));
   };
   // Many fine ones push a coarse one with small forces each, few coarse ones with large: the sums are alike. Their
   // most, not the largest force times the largest number, or a fine particle's torque drowns in the unit of a wide
@@ -175,9 +180,10 @@ FixedPoint force_unit(const core::Scene& scene, const Materials& materials, cons
           most_contacts(species[std::size_t(i)].radius, species[std::size_t(j)].radius) * force(materials.kind(i, j));
     most = std::max(most, sum);
   }
-  laws.each_attraction([&](const CohesionLaw& law) { most = std::max(most, law.pull_off()); });
-  // The dashpot and friction add to the elastic force, hardly more than it.
-  return FixedPoint::for_sums_of(4 * most, 1);
+  laws.each_attraction([&](const CohesionLaw& law) {
+    for (int kind = 0; kind < int(materials.kinds().size()); ++kind) most = std::max(most, law.pull_off(kind));
+  });
+  return FixedPoint::for_sums_of(reserve * most, 1);
 }
 
 FixedPoint torque_unit(const FixedPoint& force, const Materials& materials) {

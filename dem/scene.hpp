@@ -58,8 +58,10 @@ struct Speeds {
 [[nodiscard]] Speeds expected_speeds(const core::Scene& scene, const Materials& materials, const Box& box,
                                      const std::vector<Particle>& start);
 
-/// Unit of forces: at the overlap allowed, on as many contacts as the largest particle has room for.
-[[nodiscard]] FixedPoint force_unit(const core::Scene& scene, const Materials& materials, const PairLaws& laws);
+/// Unit of forces: at the overlap allowed, on as many contacts as the largest particle has room for. The dashpots of
+/// particles far too fast for their contacts take part. \param speed  expected, m/s
+[[nodiscard]] FixedPoint force_unit(const core::Scene& scene, const Materials& materials, const PairLaws& laws,
+                                    double speed = 0);
 [[nodiscard]] FixedPoint torque_unit(const FixedPoint& force, const Materials& materials);
 
 /// Why a particle could touch another and its image along an axis; empty if none can: joined sides need room for two of

@@ -79,11 +79,6 @@ void store_memory(double* memory, int size, const ContactBatch& b) {
     for (int c = 0; c < b.count; ++c) memory[std::ptrdiff_t(b.pair[c]) * size + m] = b.memory[m][c];
 }
 
-/// Sums of forces beyond all bounds wrap: the overlap that such a force comes from ends the step.
-void add_units(double units, std::int64_t& sum) {
-  sum = std::int64_t(std::uint64_t(sum) + std::uint64_t(std::int64_t(units)));
-}
-
 void add_to_first(const ContactBatch& b, int c, Load& first) {
   for (std::size_t k = 0; k < 3; ++k) {
     add_units(b.force[k][c], first.force[k]);
@@ -116,7 +111,7 @@ void PairForces::act(double dt, bool wall) {
   if (laws_.rolling) laws_.rolling->act(batch_, dt);
   if (laws_.reach() > 0) core::in_vectors<forget_open>(batch_, laws_.contact_memory());
   if (ledger_ != nullptr) ledger_->act(batch_, counted_, dt);
-  laws_.each_attraction([&](const CohesionLaw& law) { law.act(batch_); });
+  laws_.each_attraction([&](const CohesionLaw& law) { law.act(batch_, dt); });
   if (laws_.film) add_film(dt, wall);
   core::in_vectors<count_units>(batch_, force_.per_unit, torque_.per_unit);
   if (laws_.rolling) core::in_vectors<add_moment>(batch_, torque_.per_unit);

@@ -20,20 +20,24 @@ namespace {
 
 using Row = ContactBatch::Row;
 
-void dmt(ContactBatch& b, const Row& pull) {
-  const int n = b.padded();
-  POLYBED_INDEPENDENT
-  for (int c = 0; c < n; ++c) b.normal[c] += closures::dmt_force(pull[c], b.overlap[c]);
-}
-
-void jkr(ContactBatch& b, int place, const Row& force, const Row& gap) {
+void dmt(ContactBatch& b, int place, const Row& pull, double dt) {
   const int n = b.padded();
   POLYBED_INDEPENDENT
   for (int c = 0; c < n; ++c) {
-    const double held = holds(b.memory[place][c], b.overlap[c], gap[c]);
+    const double memory = neck_memory(b.memory[place][c], b.overlap[c], 0, b.speed[c] * dt);
+    b.memory[place][c] = memory;
+    b.normal[c] += neck_weight(memory) * closures::dmt_force(pull[c], 0);
+  }
+}
+
+void jkr(ContactBatch& b, int place, const Row& force, const Row& gap, double dt) {
+  const int n = b.padded();
+  POLYBED_INDEPENDENT
+  for (int c = 0; c < n; ++c) {
+    const double memory = neck_memory(b.memory[place][c], b.overlap[c], gap[c], b.speed[c] * dt);
     const double whole = closures::jkr_force({force[c], 0, gap[c]}, b.overlap[c]);
-    b.memory[place][c] = held;
-    b.normal[c] += held * (whole - b.elastic[c]);
+    b.memory[place][c] = memory;
+    b.normal[c] += neck_weight(memory) * (whole - b.elastic[c]);
   }
 }
 
@@ -47,29 +51,35 @@ void van_der_waals(ContactBatch& b, const Row& radius, double hamaker, double le
 /// Share of the greatest pull at which the van der Waals force is cut.
 constexpr double pull_at_reach = 1e-6;
 
-/// A constant pull 2 pi W R* while the bodies touch.
+/// A constant pull 2 pi W R* while the bodies touch: the memory is that of a neck that breaks at once.
 class DmtCohesion final : public CohesionLaw {
  public:
-  /// \param work_of_adhesion  W, J/m2
-  DmtCohesion(const Materials& materials, double work_of_adhesion) {
+  /// \param work_of_adhesion  W, J/m2   \param place  of its memory in a batch
+  DmtCohesion(const Materials& materials, double work_of_adhesion, double step, int place)
+      : reach_(step), place_(place) {
     for (const PairMaterial& m : materials.kinds()) pull_.push_back(closures::dmt_pull_off(work_of_adhesion, m.radius));
   }
-  void act(ContactBatch& batch) const override {
+  void act(ContactBatch& batch, double dt) const override {
     alignas(64) Row pull = {};
     for (int c = 0; c < batch.count; ++c) pull[c] = pull_[std::size_t(batch.kind[c])];
-    core::in_vectors<dmt>(batch, pull);
+    core::in_vectors<dmt>(batch, place_, pull, dt);
   }
-  [[nodiscard]] int memory_size() const override { return 0; }
-  void add_energy(const ContactBatch& batch, Row& stored) const override {
-    for (int c = 0; c < batch.count; ++c)
-      stored[c] += closures::dmt_energy(pull_[std::size_t(batch.kind[c])], batch.overlap[c]);
+  [[nodiscard]] int memory_size() const override { return 1; }
+  void add_energy(const ContactBatch& batch, Row& stored, double dt) const override {
+    for (int c = 0; c < batch.count; ++c) {
+      const double pull = pull_[std::size_t(batch.kind[c])];
+      stored[c] +=
+          closures::dmt_energy(pull, batch.overlap[c]) + pull * neck_owed(batch.memory[place_][c], batch.speed[c] * dt);
+    }
   }
   void add_loss(const ContactBatch&, ContactBatch::Row&) const override {}
-  [[nodiscard]] double reach() const override { return 0; }
-  [[nodiscard]] double pull_off() const override { return *std::max_element(pull_.begin(), pull_.end()); }
+  [[nodiscard]] double reach() const override { return reach_; }
+  [[nodiscard]] double pull_off(int kind) const override { return pull_[std::size_t(kind)]; }
 
  private:
   std::vector<double> pull_;
+  double reach_;
+  int place_;
 };
 
 /// JKR's force in place of Hertz'. Surfaces jump together when they touch and part when the neck breaks, a gap delta_s
@@ -78,7 +88,8 @@ class DmtCohesion final : public CohesionLaw {
 class JkrCohesion final : public CohesionLaw {
  public:
   /// \param place  of its memory in a batch
-  JkrCohesion(const Materials& materials, double work_of_adhesion, int place) : place_(place) {
+  JkrCohesion(const Materials& materials, double work_of_adhesion, double step, int place)
+      : step_(step), place_(place) {
     for (const PairMaterial& m : materials.kinds()) {
       const closures::JkrScales scales = closures::jkr_scales(work_of_adhesion, m.youngs_modulus, m.radius);
       constants_.push_back(
@@ -86,7 +97,7 @@ class JkrCohesion final : public CohesionLaw {
     }
   }
 
-  void act(ContactBatch& batch) const override {
+  void act(ContactBatch& batch, double dt) const override {
     alignas(64) Row force = {}, gap;
     std::fill_n(gap, ContactBatch::width, 1.0);
     for (int c = 0; c < batch.count; ++c) {
@@ -94,36 +105,33 @@ class JkrCohesion final : public CohesionLaw {
       force[c] = s.force;
       gap[c] = s.gap;
     }
-    core::in_vectors<jkr>(batch, place_, force, gap);
+    core::in_vectors<jkr>(batch, place_, force, gap, dt);
   }
 
   [[nodiscard]] int memory_size() const override { return 1; }
-  void add_energy(const ContactBatch& batch, Row& stored) const override {
+  void add_energy(const ContactBatch& batch, Row& stored, double dt) const override {
     for (int c = 0; c < batch.count; ++c) {
       const Constants& k = constants_[std::size_t(batch.kind[c])];
-      const double hertz = closures::hertz_stored_energy(k.coefficient, std::max(batch.overlap[c], 0.0));
-      stored[c] += batch.memory[place_][c] * (closures::jkr_energy(k.scales, batch.overlap[c]) - hertz);
+      const double memory = batch.memory[place_][c], overlap = batch.overlap[c];
+      const double hertz = closures::hertz_stored_energy(k.coefficient, std::max(overlap, 0.0));
+      if (memory > 0) stored[c] += closures::jkr_energy(k.scales, overlap) - hertz;
+      stored[c] += (batch.elastic[c] - closures::jkr_force(k.scales, overlap)) * neck_owed(memory, batch.speed[c] * dt);
     }
   }
 
   void add_loss(const ContactBatch& batch, Row& lost) const override {
     for (int c = 0; c < batch.count; ++c) {
       const Constants& k = constants_[std::size_t(batch.kind[c])];
-      const double held = batch.memory[place_][c];
-      lost[c] += (holds(held, batch.overlap[c], k.scales.gap) > held ? 1 : 0) * k.loss;
+      if (batch.overlap[c] >= 0 && !(batch.memory[place_][c] > 0)) lost[c] += k.loss;
     }
   }
 
   [[nodiscard]] double reach() const override {
     double reach = 0;
     for (const Constants& k : constants_) reach = std::max(reach, k.scales.gap);
-    return reach;
+    return reach + step_;
   }
-  [[nodiscard]] double pull_off() const override {
-    double pull = 0;
-    for (const Constants& k : constants_) pull = std::max(pull, 1.5 * k.scales.force);
-    return pull;
-  }
+  [[nodiscard]] double pull_off(int kind) const override { return 1.5 * constants_[std::size_t(kind)].scales.force; }
 
  private:
   struct Constants {
@@ -132,6 +140,7 @@ class JkrCohesion final : public CohesionLaw {
     double coefficient;  ///< K of Hertz' force, whose energy it replaces
   };
   std::vector<Constants> constants_;
+  double step_;
   int place_;
 };
 
@@ -150,13 +159,13 @@ class VanDerWaalsCohesion final : public CohesionLaw {
         hamaker, greatest, pull_at_reach * closures::van_der_waals_pull_off(hamaker, greatest, least_gap));
   }
 
-  void act(ContactBatch& batch) const override {
+  void act(ContactBatch& batch, double) const override {
     alignas(64) Row radius = {};
     for (int c = 0; c < batch.count; ++c) radius[c] = radius_[std::size_t(batch.kind[c])];
     core::in_vectors<van_der_waals>(batch, radius, hamaker_, least_gap_);
   }
   [[nodiscard]] int memory_size() const override { return 0; }
-  void add_energy(const ContactBatch& batch, Row& stored) const override {
+  void add_energy(const ContactBatch& batch, Row& stored, double) const override {
     for (int c = 0; c < batch.count; ++c) {
       const double radius = radius_[std::size_t(batch.kind[c])], gap = -batch.overlap[c];
       // From the distance at which the force is cut.
@@ -167,8 +176,8 @@ class VanDerWaalsCohesion final : public CohesionLaw {
 
   void add_loss(const ContactBatch&, ContactBatch::Row&) const override {}
   [[nodiscard]] double reach() const override { return reach_; }
-  [[nodiscard]] double pull_off() const override {
-    return closures::van_der_waals_pull_off(hamaker_, *std::max_element(radius_.begin(), radius_.end()), least_gap_);
+  [[nodiscard]] double pull_off(int kind) const override {
+    return closures::van_der_waals_pull_off(hamaker_, radius_[std::size_t(kind)], least_gap_);
   }
 
  private:
@@ -196,11 +205,12 @@ const PairMakers cohesions{
      }},
     {"dmt",
      [](const PairMaking& m) {
-       m.laws.cohesion = std::make_unique<DmtCohesion>(m.materials, m.scene.dem.cohesion_energy);
+       m.laws.cohesion = std::make_unique<DmtCohesion>(m.materials, m.scene.dem.cohesion_energy,
+                                                       longest_step(m.scene, m.materials), m.laws.contact_memory());
      }},
     {"jkr", [](const PairMaking& m) {
-       m.laws.cohesion =
-           std::make_unique<JkrCohesion>(m.materials, m.scene.dem.cohesion_energy, m.laws.contact_memory());
+       m.laws.cohesion = std::make_unique<JkrCohesion>(m.materials, m.scene.dem.cohesion_energy,
+                                                       longest_step(m.scene, m.materials), m.laws.contact_memory());
      }}};
 
 }  // namespace

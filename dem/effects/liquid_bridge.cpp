@@ -32,13 +32,14 @@ struct BridgeRows {
   BridgeRows() { std::fill_n(rupture, ContactBatch::width, 1.0); }
 };
 
-void pull_together(ContactBatch& b, int place, const BridgeRows& bridge) {
+void pull_together(ContactBatch& b, int place, const BridgeRows& bridge, double dt) {
   const int n = b.padded();
   POLYBED_INDEPENDENT
   for (int c = 0; c < n; ++c) {
-    const double held = holds(b.memory[place][c], b.overlap[c], bridge.rupture[c]);
-    b.memory[place][c] = held;
-    b.normal[c] += held * closures::liquid_bridge_force(bridge.pull[c], bridge.stretch[c], -b.overlap[c]);
+    const double memory = neck_memory(b.memory[place][c], b.overlap[c], bridge.rupture[c], b.speed[c] * dt);
+    b.memory[place][c] = memory;
+    b.normal[c] +=
+        neck_weight(memory) * closures::liquid_bridge_force(bridge.pull[c], bridge.stretch[c], -b.overlap[c]);
   }
 }
 
@@ -48,8 +49,8 @@ void pull_together(ContactBatch& b, int place, const BridgeRows& bridge) {
 class WillettBridge final : public CohesionLaw {
  public:
   /// \param place  of its memory in a batch
-  WillettBridge(const Materials& materials, const core::Material& liquid, int place)
-      : place_(place), constants_(materials.kinds().size()) {
+  WillettBridge(const Materials& materials, const core::Material& liquid, double step, int place)
+      : step_(step), place_(place), constants_(materials.kinds().size()) {
     const double angle = liquid.contact_angle * std::numbers::pi / 180;
     const auto& species = materials.species();
     const auto film = [&](const Species& s, double partner) {
@@ -71,7 +72,7 @@ class WillettBridge final : public CohesionLaw {
     }
   }
 
-  void act(ContactBatch& batch) const override {
+  void act(ContactBatch& batch, double dt) const override {
     BridgeRows rows;
     for (int c = 0; c < batch.count; ++c) {
       const BridgeConstants& k = constants_[std::size_t(batch.kind[c])];
@@ -79,37 +80,34 @@ class WillettBridge final : public CohesionLaw {
       rows.stretch[c] = k.stretch;
       rows.rupture[c] = k.rupture;
     }
-    core::in_vectors<pull_together>(batch, place_, rows);
+    core::in_vectors<pull_together>(batch, place_, rows, dt);
   }
 
   [[nodiscard]] int memory_size() const override { return 1; }
-  void add_energy(const ContactBatch& batch, Row& stored) const override {
+  void add_energy(const ContactBatch& batch, Row& stored, double dt) const override {
     for (int c = 0; c < batch.count; ++c) {
       const BridgeConstants& k = constants_[std::size_t(batch.kind[c])];
-      stored[c] +=
-          batch.memory[place_][c] * closures::liquid_bridge_energy(k.pull, k.stretch, k.rupture, -batch.overlap[c]);
+      const double memory = batch.memory[place_][c], gap = -batch.overlap[c];
+      if (memory > 0) stored[c] += closures::liquid_bridge_energy(k.pull, k.stretch, k.rupture, gap);
+      stored[c] -= closures::liquid_bridge_force(k.pull, k.stretch, gap) * neck_owed(memory, batch.speed[c] * dt);
     }
   }
   void add_loss(const ContactBatch& batch, Row& lost) const override {
     for (int c = 0; c < batch.count; ++c) {
       const BridgeConstants& k = constants_[std::size_t(batch.kind[c])];
-      const double held = batch.memory[place_][c];
-      if (holds(held, batch.overlap[c], k.rupture) > held)
+      if (batch.overlap[c] >= 0 && !(batch.memory[place_][c] > 0))
         lost[c] -= closures::liquid_bridge_energy(k.pull, k.stretch, k.rupture, 0);
     }
   }
   [[nodiscard]] double reach() const override {
     double most = 0;
     for (const BridgeConstants& k : constants_) most = std::max(most, k.rupture);
-    return most;
+    return most + step_;
   }
-  [[nodiscard]] double pull_off() const override {
-    double most = 0;
-    for (const BridgeConstants& k : constants_) most = std::max(most, k.pull);
-    return most;
-  }
+  [[nodiscard]] double pull_off(int kind) const override { return constants_[std::size_t(kind)].pull; }
 
  private:
+  double step_;
   int place_;
   std::vector<BridgeConstants> constants_;
 };
@@ -120,8 +118,9 @@ namespace makers {
 
 extern const Maker liquid_bridge;
 const Maker liquid_bridge{&relevance::effects::liquid_bridge, "Pair", MakePair([](const PairMaking& m) {
-                            m.laws.bridge =
-                                std::make_unique<WillettBridge>(m.materials, m.scene.material, m.laws.memory_size());
+                            m.laws.bridge = std::make_unique<WillettBridge>(m.materials, m.scene.material,
+                                                                            longest_step(m.scene, m.materials),
+                                                                            m.laws.memory_size());
                           })};
 
 }  // namespace makers

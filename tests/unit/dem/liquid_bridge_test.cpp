@@ -42,7 +42,7 @@ TEST(LiquidBridge, FormsAtTheTouchAndPullsUntilItRuptures) {
   const double pull = closures::liquid_bridge_pull(radius, tension, angle);
   EXPECT_NEAR(pull, 2 * std::numbers::pi * 5e-3 * 0.072 * std::sqrt(0.75), 1e-17);
   const double rupture = (1 + angle / 2) * std::cbrt(volume), stretch = std::sqrt(radius / volume);
-  EXPECT_DOUBLE_EQ(bench.laws.reach(), rupture);
+  EXPECT_DOUBLE_EQ(bench.laws.reach(), rupture + longest_step(wet(), bench.materials));
   const auto pressed = [&](double overlap) { return bench.press(overlap, {})[1]; };
   EXPECT_EQ(pressed(-0.1 * rupture), 0);  // has not touched yet
   for (const double overlap : {1e-5, 3e-5, 1e-7, -0.01 * rupture, -0.5 * rupture, -0.99 * rupture}) {
@@ -62,12 +62,13 @@ TEST(LiquidBridge, OfUnequalSpheresTakesTheFilmsThatTheyCover) {
   const Materials materials(scene);
   const PairLaws laws = make_pair_laws(scene, materials);
   // The largest reach is that of the large sphere at the wall.
-  EXPECT_DOUBLE_EQ(laws.reach(), std::cbrt(0.5 * fraction * closures::sphere_volume(2.5e-3)));
+  EXPECT_DOUBLE_EQ(laws.reach(),
+                   std::cbrt(0.5 * fraction * closures::sphere_volume(2.5e-3)) + longest_step(scene, materials));
   ContactBatch batch;
   batch.count = 1;
   batch.kind[0] = materials.kind(0, 1);
   batch.overlap[0] = 0;
-  laws.bridge->act(batch);
+  laws.bridge->act(batch, 0);
   EXPECT_NEAR(batch.normal[0], -2 * std::numbers::pi * 2 * (2.5e-3 * 0.5e-3 / 3e-3) * tension, 1e-17);
   // V: caps of half-angles asin(1/6) and asin(5/6).
   const double volume = fraction * (closures::sphere_volume(2.5e-3) * 0.5 * (1 - std::sqrt(35.0) / 6) +
@@ -75,11 +76,11 @@ TEST(LiquidBridge, OfUnequalSpheresTakesTheFilmsThatTheyCover) {
   const double rupture = std::cbrt(volume);
   batch.normal[0] = 0;
   batch.overlap[0] = -0.999999 * rupture;
-  laws.bridge->act(batch);
+  laws.bridge->act(batch, 0);
   EXPECT_LT(batch.normal[0], 0);
   batch.normal[0] = 0;
   batch.overlap[0] = -1.000001 * rupture;
-  laws.bridge->act(batch);
+  laws.bridge->act(batch, 0);
   EXPECT_EQ(batch.normal[0], 0);
 }
 
