@@ -341,7 +341,7 @@ void run_check(const RunOptions& options) {
   core::Timers timers;
   std::unique_ptr<tfm::Model> part;
   const Requirements need = requirements_of(scene, timers, part);
-  refuse_beyond_memory(scene, need.memory, core::available_memory());
+  refuse_beyond_memory(scene, need.memory.total(), core::available_memory());
   Derived derived = derive(scene, *part);
   if (particles)
     for (const std::string& warning : particles->warnings()) derived.notes.push_back(warning);

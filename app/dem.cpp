@@ -304,7 +304,10 @@ void run_dem(const RunOptions& options) {
   const std::shared_ptr<const core::Ranks> ranks = core::Ranks::of_program();
   core::give_back_what_is_freed();
   std::unique_ptr<const core::OutputDirectory> taken;  // by the first rank
-  core::on_first(ranks.get(), [&] { taken = take_directory(directory, options); });
+  core::on_first(ranks.get(), [&] {
+    require_particle_memory(scene);
+    taken = take_directory(directory, options);
+  });
   // Refuse a checkpoint of another case before its model is built, which may fail for other reasons.
   if (options.resume) core::on_first(ranks.get(), [&] { (void)read_checkpoint_of(directory, scene, "dem"); });
   std::optional<DemRun> run;

@@ -7,6 +7,7 @@
 
 #include "closures/contact_pair.hpp"
 #include "core/case/contact_properties.hpp"
+#include "core/case/keys.hpp"
 #include "relevance/effects/contact.hpp"
 
 namespace polybed::dem {
@@ -38,10 +39,20 @@ double rounded_up(double value) {
   return std::ceil(value / unit * (1 - 1e-12)) * unit;
 }
 
+double stiffest(const core::Scene& scene) {
+  const bool linear = relevance::effects::contact.has(scene, relevance::effects::linear_springs);
+  const auto all = core::keys();
+  return std::ranges::find(all, linear ? "dem.normal_stiffness" : "dem.youngs_modulus", &core::Key::path)->range.most;
+}
+
 std::string stiffer(const core::Scene& scene, const std::string& a, const std::string& b, double factor) {
-  if (relevance::effects::contact.has(scene, relevance::effects::linear_springs))
-    return fmt::format("dem.normal_stiffness = \"{:g} N/m\"", rounded_up(factor * scene.dem.normal_stiffness.value()));
+  const double most = stiffest(scene);
+  if (relevance::effects::contact.has(scene, relevance::effects::linear_springs)) {
+    const double stiffness = rounded_up(factor * scene.dem.normal_stiffness.value());
+    return stiffness <= most ? fmt::format("dem.normal_stiffness = \"{:g} N/m\"", stiffness) : "";
+  }
   const core::ContactProperties given = core::contact_properties(scene, a, b);
+  if (!(rounded_up(factor * std::max(given.first.youngs_modulus, given.second.youngs_modulus)) <= most)) return "";
   const auto text = [&](const std::string& key, double modulus) {
     return fmt::format("{} = \"{}\"", key, pressure_text(rounded_up(factor * modulus)));
   };
@@ -50,14 +61,29 @@ std::string stiffer(const core::Scene& scene, const std::string& a, const std::s
   return second == first || a == b ? one : one + " and " + text(second, given.second.youngs_modulus);
 }
 
+/// m, at which the springs have taken an energy, J, and the work of a pull, N, on the way there: m. Bisection between
+/// the overlap without the pull and one at which the springs hold both.
+double overlap_with_pull(const NormalLaw& law, int kind, double without, double pull) {
+  const double energy = law.energy(kind, without);
+  const auto left = [&](double overlap) { return energy + pull * overlap - law.energy(kind, overlap); };
+  double low = without, high = std::max(without, 1e-12);
+  while (left(high) > 0) high *= 2;
+  for (int n = 0; n < 60; ++n) {
+    const double middle = 0.5 * (low + high);
+    (left(middle) > 0 ? low : high) = middle;
+  }
+  return high;
+}
+
 double stiffening(const NormalLaw& law, int kind, double overlap, double allowed) {
   const double power = law.force_at(kind, overlap) * overlap / law.energy(kind, overlap);
   return std::pow(overlap / allowed, power);
 }
 
-OverlapForecast overlap_forecast(const core::Scene& scene, const Materials& materials, const NormalLaw& law,
+OverlapForecast overlap_forecast(const core::Scene& scene, const Materials& materials, const PairLaws& laws,
                                  double speed, Met met) {
   constexpr double used = 0.8;  // of what is allowed
+  const NormalLaw& law = *laws.normal;
   OverlapForecast worst;
   const auto& species = materials.species();
   for (std::size_t a = 0; a < species.size(); ++a)
@@ -71,19 +97,22 @@ OverlapForecast overlap_forecast(const core::Scene& scene, const Materials& mate
                    ? std::max(mass, species[b].mass)
                    : closures::mass_on_a_contact(mass, species[a].radius, species[b].mass, species[b].radius);
       // The same energy as an impact of the reduced mass.
-      const double overlap = law.overlap_of_impact(kind, speed * std::sqrt(mass / pair.mass));
+      double pull = 0, overlap = law.overlap_of_impact(kind, speed * std::sqrt(mass / pair.mass));
+      laws.each_attraction([&](const CohesionLaw& attraction) { pull += attraction.pull_off(kind); });
+      const double allowed = 2 * pair.least_radius * scene.dem.max_overlap, aimed = used * allowed;
+      const double stiffer_by = (law.energy(kind, overlap) + pull * aimed) / law.energy(kind, aimed);
+      if (pull > 0) overlap = overlap_with_pull(law, kind, overlap, pull);
       const double share = overlap / (2 * pair.least_radius);
       if (!(share > worst.share)) continue;
-      const double allowed = 2 * pair.least_radius * scene.dem.max_overlap;
       const std::string partner = wall ? "wall" : species[b].name;
-      worst = {fmt::format("{} and {}", species[a].name, partner), overlap, share,
-               dem::stiffening(law, kind, overlap, used * allowed), ""};
-      if (overlap > allowed)
-        worst.warning = fmt::format(
-            "contacts of {} are too soft: at {:.3g} m/s they overlap by up to {:.2g} of the smaller diameter, and the "
-            "run stops above dem.max_overlap = {:g}; use {}, or state dem.greatest_speed if particles are slower",
-            worst.pair, speed, share, scene.dem.max_overlap,
-            stiffer(scene, species[a].name, partner, worst.stiffening));
+      worst = {fmt::format("{} and {}", species[a].name, partner), overlap, share, stiffer_by, ""};
+      if (!(overlap > allowed)) continue;
+      const std::string use = stiffer(scene, species[a].name, partner, worst.stiffening);
+      worst.warning = fmt::format(
+          "contacts of {} are too soft: at {:.3g} m/s they overlap by up to {:.2g} of the smaller diameter, and the "
+          "run stops above dem.max_overlap = {:g}; {}state dem.greatest_speed if particles are slower",
+          worst.pair, speed, share, scene.dem.max_overlap,
+          use.empty() ? "no stiffness that a case accepts is enough: " : fmt::format("use {}, or ", use));
     }
   return worst;
 }

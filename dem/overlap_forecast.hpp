@@ -13,8 +13,11 @@ namespace polybed::dem {
 [[nodiscard]] double rounded_up(double value);
 
 /// What to write into a case so that a contact between two species, or one and "wall", is `factor` times as stiff, with
-/// the number rounded up to two digits: dem.youngs_modulus = "1.3 MPa".
+/// the number rounded up to two digits: dem.youngs_modulus = "1.3 MPa"; empty if a case does not accept it.
 [[nodiscard]] std::string stiffer(const core::Scene& scene, const std::string& a, const std::string& b, double factor);
+
+/// The stiffest that a case accepts: Young's modulus, Pa, or with linear springs their stiffness, N/m.
+[[nodiscard]] double stiffest(const core::Scene& scene);
 
 /// How much stiffer a contact must be for its overlap to become `allowed`: (overlap/allowed)^p, where the energy stored
 /// goes with overlap^p, 5/2 after Hertz and 2 of linear springs. No unit.
@@ -33,9 +36,10 @@ enum class Met { bed, single };
 
 /// The deepest contact to expect: of each pair the heavier one comes at the speed given and meets the other held by its
 /// neighbours, closures::mass_on_a_contact, or by a wall alone, which takes all of its mass. Met in beds were 0.4 to
-/// 1.04 of it, see docs/guide/particles.md: what is advised keeps a fifth of dem.max_overlap in reserve.
+/// 1.04 of it, see docs/guide/particles.md: what is advised keeps a fifth of dem.max_overlap in reserve. Attractions
+/// pull them further in, as far as their work goes into the spring.
 /// \param speed  of impacts, m/s
 [[nodiscard]] OverlapForecast overlap_forecast(const core::Scene& scene, const Materials& materials,
-                                               const NormalLaw& law, double speed, Met met = Met::bed);
+                                               const PairLaws& laws, double speed, Met met = Met::bed);
 
 }  // namespace polybed::dem

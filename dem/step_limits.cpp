@@ -8,6 +8,9 @@
 #include "closures/contact_pair.hpp"
 #include "closures/dem_time_step.hpp"
 #include "core/case/contact_properties.hpp"
+#include "core/numerics/blocks.hpp"
+#include "fluid/viscous_stress.hpp"
+#include "relevance/fluid_properties.hpp"
 
 namespace polybed::dem {
 
@@ -46,6 +49,16 @@ void add_pair(const core::Scene& scene, const Materials& materials, const PairLa
                 laws.rolling->stiffness(kind, law.force_at(kind, overlap) / overlap), name, all);
 }
 
+/// The fluid takes at least one step of the particles at a time, and its viscous stress, which is explicit, must not
+/// carry motion over a cell in it. As far from the limit as dem.fluid_every is by default.
+void add_viscosity(const core::Scene& scene, std::vector<StepLimit>& all) {
+  if (!scene.fluid.present() || scene.column.shear_rate != 0 || !core::acts(scene, "fluid_stress")) return;
+  constexpr double courant = 0.5;
+  const relevance::FluidConstants fluid = relevance::fluid_constants(scene.fluid);
+  const double rate = 2 * fluid.viscosity / fluid.density * fluid::viscous_rate(core::grid_of(scene.column, nullptr));
+  all.push_back({"viscosity of the fluid", courant / rate});
+}
+
 }  // namespace
 
 StepLimits step_limits(const core::Scene& scene, const Materials& materials, const PairLaws& laws, double speed) {
@@ -78,6 +91,7 @@ StepLimits step_limits(const core::Scene& scene, const Materials& materials, con
                                                material.poisson_ratio)});
     limits.all.push_back({fmt::format("speed of {}", species[a].name), of_diameter * 2 * species[a].radius / speed});
   }
+  add_viscosity(scene, limits.all);
   std::stable_sort(limits.all.begin(), limits.all.end(),
                    [](const StepLimit& a, const StepLimit& b) { return a.dt < b.dt; });
   limits.dt = limits.all.front().dt;

@@ -27,8 +27,8 @@ struct StepLimits {
 };
 
 /// The step of a scene: the smallest of contact time over steps_per_contact, a share of the Rayleigh time, of the
-/// oscillation of the stiffest contact and of the time to move a part of a diameter. The smallest over species and
-/// pairs.
+/// oscillation of the stiffest contact and of the time to move a part of a diameter, the smallest over species and
+/// pairs, and of what the viscous stress of a fluid bears.
 /// \param speed  greatest expected, m/s, above 0
 [[nodiscard]] StepLimits step_limits(const core::Scene& scene, const Materials& materials, const PairLaws& laws,
                                      double speed);

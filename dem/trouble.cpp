@@ -35,9 +35,12 @@ std::string remedy_of_pair(const Model& model, const core::Scene& scene, const C
   constexpr double least_allowed = 1e-4;  // of a diameter: less asks for particles stiffer than any
   if (scene.dem.max_overlap < least_allowed)
     return fmt::format("dem.max_overlap = {:g} of the diameter is too little: leave it out", scene.dem.max_overlap);
-  return fmt::format(
-      "{} would have kept them within it; or look at the start",
-      stiffer(scene, species[std::size_t(a)].name, trouble.wall ? "wall" : species[std::size_t(b)].name, factor));
+  const std::string use =
+      stiffer(scene, species[std::size_t(a)].name, trouble.wall ? "wall" : species[std::size_t(b)].name, factor);
+  if (use.empty())
+    return "no stiffness that a case accepts would have kept them within it: look at the start, and at what makes them "
+           "so fast";
+  return use + " would have kept them within it; or look at the start";
 }
 
 }  // namespace

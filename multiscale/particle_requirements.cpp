@@ -14,7 +14,6 @@
 #include "core/numerics/blocks.hpp"
 #include "core/print.hpp"
 #include "core/progress.hpp"
-#include "dem/effects/contact_hertz.hpp"
 #include "dem/feeding.hpp"
 #include "dem/packing.hpp"
 #include "dem/rules.hpp"
@@ -22,6 +21,7 @@
 #include "dem/settling.hpp"
 #include "fluid/viscous_stress.hpp"
 #include "multiscale/card/card.hpp"
+#include "multiscale/requirements.hpp"
 #include "relevance/effects/contact.hpp"
 #include "relevance/fluid_properties.hpp"
 
@@ -141,6 +141,12 @@ double expected_time(const ParticleRequirements& need, const ParticleSpeed& spee
                          (speed.fluid_step + speed.exchange * count + speed.cell * double(need.fluid->cells));
 }
 
+void require_memory_for(const core::Scene& scene, const ParticleRequirements& need) {
+  const bool cells = need.fluid && need.fluid->memory > need.particles;
+  refuse_beyond_memory(scene, need.memory(), core::available_memory(),
+                       cells ? 0 : std::max<std::int64_t>(need.count(), 1));
+}
+
 void print_fluid(const FluidNeed& fluid) {
   core::print("fluid step {:.3g} s, one in {} of the particles': {:.3g} steps on {} cells\n", fluid.step, fluid.every,
               fluid.steps, fluid.cells);
@@ -171,7 +177,7 @@ ParticleRequirements particle_requirements_of(const core::Scene& scene, const Pa
   need.numbers = std::move(start.numbers);
   const dem::Speeds speeds = dem::expected_speeds(scene, materials, box, start.foremost);
   need.limits = dem::step_limits(scene, materials, laws, speeds.greatest);
-  need.overlap = dem::overlap_forecast(scene, materials, *laws.normal, speeds.impact);
+  need.overlap = dem::overlap_forecast(scene, materials, laws, speeds.impact);
   need.program = core::process_memory().now + bytes_of_output;
   need.fed = fed_in(scene, materials, box);
   // What runs out of an opening meanwhile is not known: as much as is fed.
@@ -189,9 +195,12 @@ ParticleRequirements particle_requirements_of(const core::Scene& scene, const Pa
 ParticleRequirements placed_requirements_of(const core::Scene& scene) {
   constexpr std::int64_t quickly = 5000;  // a fraction of a second
   ParticleRequirements need = particle_requirements_of(scene, known_machine().particles);
+  require_memory_for(scene, need);
   if (need.count() <= quickly) (void)dem::start_particles(scene, dem::Materials(scene), dem::box_of(scene));
   return need;
 }
+
+void require_particle_memory(const core::Scene& scene) { require_memory_for(scene, particle_requirements_of(scene)); }
 
 double steps_by(const core::Scene& scene, const std::string& role) {
   if (role == relevance::effects::contact.role) return 1;
@@ -210,12 +219,19 @@ void choose_stiffness(core::Scene& scene) {
       std::any_of(scene.species.begin(), scene.species.end(), own) ||
       std::any_of(scene.contact_pairs.begin(), scene.contact_pairs.end(), own))
     return;
-  const dem::Box box = dem::box_of(scene);
   const dem::Materials materials(scene);
-  const dem::Speeds speeds = dem::known_speeds(scene, materials, box, start_of(scene, materials).foremost);
-  const dem::HertzContact hertz(materials, scene.dem.tail);
-  const dem::OverlapForecast overlap = dem::overlap_forecast(scene, materials, hertz, speeds.impact, dem::Met::single);
-  scene.dem.youngs_modulus = dem::rounded_up(core::least_modulus * std::max(1.0, overlap.stiffening));
+  try {
+    const dem::PairLaws laws = dem::make_pair_laws(scene, materials);
+    const dem::Speeds speeds =
+        dem::known_speeds(scene, materials, dem::box_of(scene), start_of(scene, materials).foremost);
+    const dem::OverlapForecast overlap = dem::overlap_forecast(scene, materials, laws, speeds.impact, dem::Met::single);
+    scene.dem.youngs_modulus =
+        std::min(dem::rounded_up(core::least_modulus * std::max(1.0, overlap.stiffening)), dem::stiffest(scene));
+  } catch (const core::StartError&) {
+    throw;
+  } catch (const core::CaseError&) {
+    // The particle model says why it cannot build this scene when it is asked to run it.
+  }
 }
 
 void choose_fluid_every(core::Scene& scene) {

@@ -46,9 +46,12 @@ struct ParticleRequirements {
 /// core::CaseError for what the particle model could not build.
 [[nodiscard]] ParticleRequirements particle_requirements_of(const core::Scene& scene, const ParticleSpeed& speed = {});
 
-/// The same, after the particles have been placed as a run does, if they are not too many for an answer at once; throws
-/// core::StartError where they do not fit.
+/// The same for a run: throws core::CaseError if it needs more memory than there is, and core::StartError where the
+/// particles do not fit, if they are not too many to be placed at once.
 [[nodiscard]] ParticleRequirements placed_requirements_of(const core::Scene& scene);
+
+/// Throws core::CaseError if a run needs more memory than there is. A case that is small beside it is let through.
+void require_particle_memory(const core::Scene& scene);
 
 /// Of steps_by: from here on people are told.
 inline constexpr double many_more_steps = 1.25;

@@ -257,13 +257,17 @@ Requirements expected_of(const core::Scene& scene, const tfm::Model& model, doub
   return need;
 }
 
-void refuse_beyond_memory(const core::Scene& scene, const MemoryNeed& need, const core::AvailableMemory& available) {
-  if (need.total() <= available.bytes) return;
+void refuse_beyond_memory(const core::Scene& scene, double bytes, const core::AvailableMemory& available,
+                          std::int64_t particles) {
+  if (bytes <= available.bytes) return;
+  const std::string what = particles > 0
+                               ? fmt::format("{} particles", particles)
+                               : fmt::format("column.cells = [{}]", fmt::join(scene.column.given_cells, ", "));
+  const auto blamed = particles > 0 ? std::vector<std::string>{"bed.particles", "bed.static_height", "bed.start"}
+                                    : std::vector<std::string>{"column.cells"};
   throw core::CaseError(std::vector{scene.places.problem(
-      {"column.cells"},
-      fmt::format(
-          "column.cells = [{}]: the run would need about {:.3g} GB of memory; {} leaves {:.3g} GB: choose fewer",
-          fmt::join(scene.column.given_cells, ", "), 1e-9 * need.total(), available.limit, 1e-9 * available.bytes))});
+      blamed, fmt::format("{}: the run would need about {:.3g} GB of memory; {} leaves {:.3g} GB: choose fewer", what,
+                          1e-9 * bytes, available.limit, 1e-9 * available.bytes))});
 }
 
 void require_memory(const core::Scene& scene) {
@@ -272,7 +276,7 @@ void require_memory(const core::Scene& scene) {
   if (double(cell_count(scene)) * much_per_cell < 0.5 * available.bytes) return;
   core::Timers timers;
   std::unique_ptr<tfm::Model> model;
-  refuse_beyond_memory(scene, requirements_of(scene, timers, model).memory, available);
+  refuse_beyond_memory(scene, requirements_of(scene, timers, model).memory.total(), available);
 }
 
 }  // namespace polybed::multiscale

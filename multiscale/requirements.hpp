@@ -66,7 +66,9 @@ struct Requirements {
 [[nodiscard]] Requirements expected_of(const core::Scene& scene, const tfm::Model& model, double seconds_per_step);
 
 /// Throws core::CaseError if a case needs more memory than there is, with both numbers.
-void refuse_beyond_memory(const core::Scene& scene, const MemoryNeed& need, const core::AvailableMemory& available);
+/// \param bytes  that a run needs   \param particles  the number of particles that needs most of it; 0: cells do
+void refuse_beyond_memory(const core::Scene& scene, double bytes, const core::AvailableMemory& available,
+                          std::int64_t particles = 0);
 
 /// The same before a run, from a sample of its own. A case that is small beside the memory is let through unmeasured.
 void require_memory(const core::Scene& scene);

@@ -41,8 +41,10 @@ class Codes(Scratch):
     def test_a_case_beyond_the_memory_is_a_wrong_case(self):
         done = self.ends(WRONG_CASE, "check", CASE, "--set", "column.cells=[100000,100000]")
         self.assertIn("at most 2147483647 can be numbered", done.stderr)
-        for command in ("check", "tfm"):  # 1e9 cells of 2 kB: more than the machines that run this have
-            done = self.ends(WRONG_CASE, command, CASE, "--set", "column.cells=[10000,100000]")
+        particles = ["--set", "bed.start=random"]  # which no continuum starts from
+        for words in (["check"], ["tfm"], ["dem"], ["check", *particles], ["dem", *particles]):
+            # 1e9 cells of 1 to 2 kB: more than the machines that run this have
+            done = self.ends(WRONG_CASE, words[0], CASE, *words[1:], "--set", "column.cells=[10000,100000]")
             self.assertRegex(done.stderr, r"column.cells = \[10000, 100000\]: the run would need about [\d.e+]+ GB of memory; "
                                           r".* leaves [\d.]+ GB")
         self.assertFalse((self.folder / "runs").exists())
@@ -53,7 +55,7 @@ class Codes(Scratch):
         limit = 600 * 2**20  # bytes; the shipped case gets by with a third of it
         narrow = {"preexec_fn": lambda: resource.setrlimit(resource.RLIMIT_AS, (limit, limit))}
         self.ends(DONE, "check", CASE, **narrow)
-        for command in ("check", "tfm"):  # 16e6 cells of 2 kB
+        for command in ("check", "tfm", "dem"):  # 16e6 cells of 1 to 2 kB
             done = self.ends(WRONG_CASE, command, CASE, "--set", "column.cells=[4000,4000]", **narrow)
             self.assertRegex(done.stderr, r"about [\d.]+ GB of memory; the limit of this process \(ulimit -v\) leaves 0\.\d+ GB")
 

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "dem/packing.hpp"
 #include "dem/scene.hpp"
@@ -31,7 +32,7 @@ core::Scene spheres(const char* contact = "hertz_mindlin") {
 
 OverlapForecast forecast(const core::Scene& scene, double speed) {
   const Materials materials(scene);
-  return overlap_forecast(scene, materials, *make_pair_laws(scene, materials).normal, speed);
+  return overlap_forecast(scene, materials, make_pair_laws(scene, materials), speed);
 }
 
 constexpr double by_hand = 2e-6;  // relative: seven digits
@@ -64,11 +65,42 @@ TEST(OverlapForecast, OfASingleOneUnderALargeOne) {
   scene.bed.particles = {10, 10};
   const Materials materials(scene);
   const PairLaws laws = make_pair_laws(scene, materials);
-  const OverlapForecast bed = overlap_forecast(scene, materials, *laws.normal, 1);
-  const OverlapForecast single = overlap_forecast(scene, materials, *laws.normal, 1, Met::single);
+  const OverlapForecast bed = overlap_forecast(scene, materials, laws, 1);
+  const OverlapForecast single = overlap_forecast(scene, materials, laws, 1, Met::single);
   EXPECT_EQ(bed.pair, "a and large");
   EXPECT_EQ(single.pair, "a and large");
   EXPECT_NEAR(single.overlap / bed.overlap, std::pow(4, 0.4), 1e-12);
+}
+
+// At most 1e13 Pa and 1e12 N/m are accepted: 2e6 times 5 MPa is the first, 2.1e6 times is beyond it.
+TEST(OverlapForecast, AdvisesWhatACaseAccepts) {
+  core::Scene scene = spheres();
+  EXPECT_EQ(stiffer(scene, "a", "wall", 2e6), "dem.youngs_modulus = \"1e+04 GPa\"");
+  EXPECT_EQ(stiffer(scene, "a", "wall", 2.1e6), "");
+  const std::string told = forecast(scene, 1e3).warning;  // overlap goes with v^(4/5), energy with v^2: 2.876e6 times
+  EXPECT_THAT(told, testing::HasSubstr("no stiffness that a case accepts is enough"));
+  EXPECT_THAT(told, testing::Not(testing::HasSubstr("GPa")));
+  scene = spheres("linear");
+  EXPECT_EQ(stiffer(scene, "a", "a", 1e9), "dem.normal_stiffness = \"1e+12 N/m\"");
+  EXPECT_EQ(stiffer(scene, "a", "a", 1.1e9), "");
+}
+
+// Without speed DMT's pull P goes into the spring alone, 2/5 K d^(5/2) = P d: d = (5 P/(2 K))^(2/3), and the greatest
+// is at the wall, whose R* is twice that of two spheres. To 0.04 of the diameter the spring must be stiffer by the
+// power 3/2 of the overlaps.
+TEST(OverlapForecast, OfASurfaceThatPulls) {
+  core::Scene scene = spheres();
+  scene.effects["cohesion"] = "dmt";
+  scene.dem.cohesion_energy = 5;
+  const OverlapForecast found = forecast(scene, 0);
+  const double radius = 0.5e-3, pull = 2 * std::numbers::pi * 5 * radius;
+  const Materials materials(scene);
+  const double modulus = materials.kinds()[std::size_t(materials.wall_kind(0))].youngs_modulus;
+  const double overlap = std::pow(2.5 * pull / (4.0 / 3 * modulus * std::sqrt(radius)), 2.0 / 3);
+  EXPECT_EQ(found.pair, "a and wall");
+  EXPECT_NEAR(found.overlap, overlap, 1e-12 * overlap);
+  EXPECT_NEAR(found.stiffening, std::pow(overlap / 4e-5, 1.5), 1e-9);
+  EXPECT_THAT(found.warning, testing::HasSubstr("too soft"));
 }
 
 TEST(OverlapForecast, NamesTheKeysThatCount) {

@@ -67,6 +67,22 @@ TEST(Integrator, IsTheOneThatTheCaseSays) {
   EXPECT_FALSE(limits_of(scene).synchronised);
 }
 
+// nu = 0.01 m2/s on cells of 1 mm: 2 nu dt (1/h^2 + 1/h^2) = 1/2 at 12.5 us.
+TEST(Step, IsShortEnoughForTheViscosityOfAFluid) {
+  core::Scene scene = scene_of({{"drag", "stokes"}, {"fluid_stress", "newtonian"}});
+  scene.column.dimensions = 2;
+  scene.column.size = {0.02, 0.03, 0.02};
+  scene.column.cells = {20, 30, 1};
+  scene.fluid.name = "honey";
+  scene.fluid.density = 1000;
+  scene.fluid.viscosity = 10;
+  const StepLimits limits = limits_of(scene);
+  EXPECT_EQ(limits.limited_by, "viscosity of the fluid");
+  EXPECT_NEAR(limits.dt, 1.25e-5, 1e-15);
+  scene.effects.erase("fluid_stress");
+  EXPECT_GT(limits_of(scene).dt, limits.dt);
+}
+
 // Two undamped spheres of mass m on a linear spring k: omega = sqrt(2 k/m), and the limit 2/omega, by hand.
 TEST(FixedStep, IsWarnedOfBeyondHalfTheLimitOfStability) {
   core::Scene scene = scene_of({});

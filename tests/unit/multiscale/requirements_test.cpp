@@ -61,13 +61,14 @@ TEST(Requirements, GrowWithTheCase) {
 TEST(Requirements, ARefusalTellsBothNumbers) {
   const core::Scene scene = scenes::binary_bed(8, 40, 0.03, 0.15);
   const MemoryNeed need{.state = 3e9, .fields = 1e9, .solver = 0.5e9, .program = 0.5e9};
-  EXPECT_NO_THROW(refuse_beyond_memory(scene, need, {6e9, "the test"}));
-  try {
-    refuse_beyond_memory(scene, need, {4e9, "the test"});
-    FAIL() << "nothing was thrown";
-  } catch (const core::CaseError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("about 5 GB of memory; the test leaves 4 GB"));
-  }
+  EXPECT_NO_THROW(refuse_beyond_memory(scene, need.total(), {6e9, "the test"}));
+  for (const auto& [particles, what] : {std::pair(0, "column.cells = ["), std::pair(12, "12 particles: ")}) try {
+      refuse_beyond_memory(scene, need.total(), {4e9, "the test"}, particles);
+      FAIL() << "nothing was thrown";
+    } catch (const core::CaseError& error) {
+      EXPECT_THAT(error.what(), HasSubstr("about 5 GB of memory; the test leaves 4 GB"));
+      EXPECT_THAT(error.what(), HasSubstr(what));
+    }
 }
 
 }  // namespace
