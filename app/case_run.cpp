@@ -48,12 +48,12 @@ void CaseRun::prepare(const std::function<void(core::Checkpoint&, const std::fil
   core::Checkpoint checkpoint;
   if (options_.resume) {
     core::on_first(ranks_.get(), [&] { checkpoint = read_checkpoint_of(directory_, scene_, model_name_); });
-    resume(checkpoint, checkpoint_path(directory_));
+    core::name_checkpoint(checkpoint_path(directory_), [&] { resume(checkpoint, checkpoint_path(directory_)); });
     past_ = core::said_by(ranks_.get(), 0, checkpoint.texts[past_name]);
   } else if (scene_.bed.start.kind == core::StartKind::checkpoint) {
     const std::filesystem::path path = scene_.bed.start.file;
     core::on_first(ranks_.get(), [&] { checkpoint = core::read_checkpoint(path); });
-    start_from(checkpoint, path);
+    core::name_checkpoint(path, [&] { start_from(checkpoint, path); });
   }
   begin_ = simulation().time();
   // A run that begins anew and is killed at once must not be resumed from the run that it replaces.
@@ -62,11 +62,13 @@ void CaseRun::prepare(const std::function<void(core::Checkpoint&, const std::fil
 
 void CaseRun::recall(const std::function<void(const core::Json&)>& take) const {
   if (past_.empty()) return;
-  try {
-    take(core::parse_json(past_));
-  } catch (const core::FileError& error) {
-    core::refuse_checkpoint(fmt::format("what it says of the run before: {}", error.what()));
-  }
+  core::name_checkpoint(checkpoint_path(directory_), [&] {
+    try {
+      take(core::parse_json(past_));
+    } catch (const core::FileError& error) {
+      core::refuse_checkpoint(fmt::format("what it says of the run before: {}", error.what()));
+    }
+  });
 }
 
 /// Of what this process has simulated, or, while it runs, will.

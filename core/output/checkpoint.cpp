@@ -9,7 +9,6 @@
 #include <cmath>
 #include <cstdio>
 #include <cstring>
-#include <functional>
 #include <numeric>
 #include <optional>
 #include <string_view>
@@ -197,6 +196,15 @@ void refuse_checkpoint(const std::string& reason) {
   throw FileError("the checkpoint is whole but cannot be resumed: " + reason);
 }
 
+void name_checkpoint(const fs::path& path, const std::function<void()>& take_up) {
+  try {
+    take_up();
+  } catch (const FileError& error) {
+    if (std::string_view(error.what()).find(path.string()) != std::string_view::npos) throw;
+    throw FileError(fmt::format("{}: {}", path.string(), error.what()));
+  }
+}
+
 void require_numbers(const Checkpoint& checkpoint) {
   constexpr double greatest = 1e30;
   const auto odd = [](double v) { return !(std::abs(v) <= greatest); };
@@ -259,7 +267,9 @@ void read_parts(const fs::path& path, const CheckpointParts& parts, Checkpoint& 
 Checkpoint read_checkpoint(const fs::path& path) {
   try {
     check_whole(path);
-    return content(OutputFile::on_disk(path, kind));
+    Checkpoint checkpoint;
+    name_checkpoint(path, [&] { checkpoint = content(OutputFile::on_disk(path, kind)); });
+    return checkpoint;
   } catch (const FileError& error) {
     const fs::path previous = previous_checkpoint(path);
     if (!is_whole(previous)) throw;

@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -52,6 +53,9 @@ struct Checkpoint {
 
 /// What a checkpoint says that cannot be, though it is whole: FileError with the reason.
 [[noreturn]] void refuse_checkpoint(const std::string& reason);
+
+/// Runs what takes up the contents of a checkpoint: a FileError that does not name its file yet does so afterwards.
+void name_checkpoint(const std::filesystem::path& path, const std::function<void()>& take_up);
 
 /// Throws FileError for numbers that no state of a run has: not finite, or beyond 1e30 in SI units.
 void require_numbers(const Checkpoint& checkpoint);

@@ -113,8 +113,10 @@ BoxDrag resolved(const core::Scene& scene, const ResolvePoint& point, const Sphe
   bool stopped = false;
   Stand stand;
   if (const auto state = kept != nullptr ? kept->read() : std::nullopt) {
-    stand = stand_of(*state);
-    kept->restore(flow, *state);
+    core::name_checkpoint(kept->path, [&] {
+      stand = stand_of(*state);
+      kept->restore(flow, *state);
+    });
     (void)wanted(double(stand.progress.steps), stand.progress.change);
   }
   const auto begin = std::chrono::steady_clock::now();

@@ -258,10 +258,12 @@ BoxDrag run(const core::Scene& scene, const ResolvePoint& point, const SpherePac
   std::int64_t done = 0;
   double before = 0;  // s on the clock, of the runs before
   if (const auto state = kept != nullptr ? kept->read() : std::nullopt) {
-    box.restore(*state);
-    kept->restore(box.flow(), *state);
-    done = state->count("box_steps");
-    before = state->time("seconds");
+    core::name_checkpoint(kept->path, [&] {
+      box.restore(*state);
+      kept->restore(box.flow(), *state);
+      done = state->count("box_steps");
+      before = state->time("seconds");
+    });
   }
   const auto begin = std::chrono::steady_clock::now();
   const auto seconds = [&] {

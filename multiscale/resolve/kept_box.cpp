@@ -35,7 +35,7 @@ std::optional<core::Checkpoint> KeptBox::read() const {
   core::Checkpoint state = core::read_checkpoint(path);
   const auto box = state.texts.find("box");
   if (box == state.texts.end() || box->second != name) return {};
-  core::require_numbers(state);
+  core::name_checkpoint(path, [&] { core::require_numbers(state); });
   return state;
 }
 

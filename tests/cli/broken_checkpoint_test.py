@@ -79,6 +79,7 @@ class Broken(Scratch):
             self.assertNotRegex(done.stderr, r"\b(at|stoi|stod|bad_\w+|std::\S+|vector|map|out_of_range|unordered)\b::|_M_range|::at", text)
             if done.returncode in (WRONG_CASE, FILE):
                 self.assertEqual(len(re.findall("\n", done.stderr.strip())), 0, text)  # one line
+                self.assertIn(str(commands[len(ends)][-1]), done.stderr, text)
             ends[change] = done.returncode
         return ends
 
