@@ -78,6 +78,7 @@ class Model : public core::Simulation {
   void step(double stop) override;
   /// The state is that of the last step: observers read times not more than a step old.
   void show(double) override {}
+  [[nodiscard]] bool shows_inside_steps() const override { return false; }
   /// Lists the pairs anew, as a run taken up again does: both then have the same bits.
   void restart() override;
 

@@ -41,15 +41,18 @@ Table run_table() {
 }
 
 Table output_table() {
-  return table("output", &Scene::output,
-               {
-                   key(&OutputPlan::every, "every", dimension::time, above(0, 1e9),
-                       help("between stored fields and profiles; default: a twentieth of the run")),
-                   key(&OutputPlan::history_every, "history_every", dimension::time, above(0, 1e9),
-                       help("between rows of history.csv; default: a 400th of the run")),
-                   key(&OutputPlan::checkpoint_every, "checkpoint_every", dimension::time, above(0, 1e9),
-                       help("between checkpoints; default: a tenth of run.until, which --until does not change")),
-               });
+  return table(
+      "output", &Scene::output,
+      {
+          key(&OutputPlan::every, "every", dimension::time, above(0, 1e9),
+              help("between stored fields and profiles; polybed dem stores at most one state a step; default: a "
+                   "twentieth of the run")),
+          key(&OutputPlan::history_every, "history_every", dimension::time, above(0, 1e9),
+              help("between rows of history.csv; polybed dem writes at most one row a step; default: a 400th of the "
+                   "run")),
+          key(&OutputPlan::checkpoint_every, "checkpoint_every", dimension::time, above(0, 1e9),
+              help("between checkpoints; default: a tenth of run.until, which --until does not change")),
+      });
 }
 
 }  // namespace

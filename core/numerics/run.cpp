@@ -50,6 +50,10 @@ class Outputs {
     bool first = true;
     for (std::size_t n = 0; n < observers_.size(); ++n) {
       const double every = observers_[n].every;
+      if (every > 0 && is_later(now - before, every) && !simulation_.shows_inside_steps()) {
+        act(n, now);
+        continue;
+      }
       for (double due = next_multiple(every, before); !left_out_ && !is_later(due, now);
            due = next_multiple(every, due)) {
         if (!first && stop_wanted_ && stop_wanted_())

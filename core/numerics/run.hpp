@@ -17,6 +17,9 @@ class Simulation {
   virtual void step(double stop) = 0;
   /// Makes the state at a time inside the last step (or now) the one that observers read.
   virtual void show(double t) = 0;
+  /// Whether show() finds a state of its own for each time inside a step. Else outputs denser than the steps become
+  /// those of the steps, at their times.
+  [[nodiscard]] virtual bool shows_inside_steps() const { return true; }
   /// Handles an event at the present time: what jumps there jumps, and the integrator forgets its history, so
   /// that a run resumed here gives the same bits as one that went on.
   virtual void restart() = 0;

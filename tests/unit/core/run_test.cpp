@@ -124,6 +124,30 @@ TEST(Run, TakesNoStepFromACheckpointAnUlpBeforeTheEnd) {
   EXPECT_TRUE(record_of({1.8, 0.18, {}}, 0.09, 0.1, 10 * 0.18).restarts.empty());
 }
 
+/// The same steps of a model that has no state inside them.
+class WholeSteps : public Steps {
+ public:
+  using Steps::Steps;
+  [[nodiscard]] bool shows_inside_steps() const override { return false; }
+};
+
+// Steps of 0.25 s: rows every 0.1 s become one a step with its time, those every 0.5 s stay, and tables of a model that
+// interpolates have all of them.
+TEST(Run, WritesOneRowAStepWhereAModelHasNoStateInsideSteps) {
+  const auto rows_of = [](Simulation& simulation, double every) {
+    std::vector<double> rows;
+    run(
+        simulation, {1, 0, {}}, {{"rows", every, [&](double t) { rows.push_back(t); }}}, true, [](double) {},
+        [] { return true; });
+    return rows;
+  };
+  WholeSteps dense(0.25), sparse(0.25);
+  EXPECT_THAT(rows_of(dense, 0.1), ElementsAre(0, 0.25, 0.5, 0.75, 1));
+  EXPECT_THAT(rows_of(sparse, 0.5), ElementsAre(0, 0.5, 1));
+  Steps shown(0.25);
+  EXPECT_EQ(rows_of(shown, 0.1).size(), 11U);
+}
+
 /// A run of two steps of 1 s with outputs every 10 ms whose user wants to stop once a number of rows is written.
 std::string told_of_a_stop(double until, std::size_t rows, Record& record) {
   Steps steps(1);
