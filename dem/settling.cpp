@@ -11,6 +11,7 @@
 #include "core/error.hpp"
 #include "core/interrupt.hpp"
 #include "core/numerics/ranks.hpp"
+#include "dem/invariants.hpp"
 #include "dem/measures.hpp"
 #include "dem/model.hpp"
 #include "dem/packing.hpp"
@@ -71,15 +72,28 @@ void forget(core::Checkpoint& checkpoint, std::size_t place, std::size_t count) 
   contacts->second = std::move(kept);
 }
 
-/// Energy that lifts each particle by its radius, J.
-double lifting_energy(const Model& model) {
+/// m/s, at which a species settles alone, or rises; infinite without a fluid, or where it does neither.
+double speed_alone(const core::Scene& scene, const Species& species) {
+  constexpr double none = std::numeric_limits<double>::infinity();
+  if (!scene.fluid.present()) return none;
+  const relevance::FluidConstants fluid = relevance::fluid_constants(scene.fluid);
+  const double excess = std::abs(species.density - fluid.density);
+  return excess > 0 ? closures::settling_velocity(2 * species.radius, excess, fluid.density, fluid.viscosity,
+                                                  scene.column.gravity)
+                    : none;
+}
+
+/// Energy that lifts each particle by its radius, or that it has as it settles alone if that is less: in a viscous
+/// fluid a bed moves with little energy all the way down. J.
+double energy_of_fall(const core::Scene& scene, const Model& model) {
   double energy = 0;
-  for (std::size_t i = 0; i < model.particles().owned; ++i)
-    energy += model.particles().place[i].radius / model.particles().motion[i].inverse_mass;
-  const Vector g = model.gravity();
-  std::array<double, 1> sum{energy * std::hypot(g[0], g[1], g[2])};
-  core::add_over_ranks(model.ranks(), sum);
-  return sum[0];
+  const std::vector<std::int64_t> number = numbers_of(model);
+  for (std::size_t j = 0; j < number.size(); ++j) {
+    const Species& species = model.materials().species()[j];
+    const double alone = speed_alone(scene, species);
+    energy += double(number[j]) * species.mass * std::min(scene.column.gravity * species.radius, 0.5 * alone * alone);
+  }
+  return energy;
 }
 
 /// How much longer beads with little friction take: what they touch gives way again and again. Measured on a bed of
@@ -100,7 +114,7 @@ double settling_time(const core::Scene& scene, const Materials& materials, const
   const double height = start_height(scene, materials, box), g = scene.column.gravity;
   const double dry = until_rest * sliding(scene, materials) * std::sqrt(2 * height / g);
   if (!scene.fluid.present()) return dry;
-  const relevance::FluidConstants fluid = relevance::fluid_constants(scene.fluid);
+  const double density = relevance::fluid_constants(scene.fluid).density;
   const std::vector<std::int64_t> numbers = particle_numbers(scene, materials);
   double solids = 0;
   for (std::size_t j = 0; j < numbers.size(); ++j)
@@ -110,12 +124,10 @@ double settling_time(const core::Scene& scene, const Materials& materials, const
   double slowest = 0;
   for (std::size_t j = 0; j < numbers.size(); ++j) {
     const Species& s = materials.species()[j];
-    const double excess = s.density - fluid.density;
-    if (numbers[j] == 0 || excess == 0) continue;
-    const double room = excess > 0 ? height : box.size[1];  // what is lighter rises to the top of the column
+    if (numbers[j] == 0 || s.density == density) continue;
+    const double room = s.density > density ? height : box.size[1];  // what is lighter rises to the top of the column
     const double way = std::max(0.0, room - solids / scene.bed.solids_fraction);
-    const double alone = closures::settling_velocity(2 * s.radius, std::abs(excess), fluid.density, fluid.viscosity, g);
-    slowest = std::max(slowest, way / (alone * std::pow(1 - solids / room, hindrance)));
+    slowest = std::max(slowest, way / (speed_alone(scene, s) * std::pow(1 - solids / room, hindrance)));
   }
   return in_fluid * (dry + slowest);
 }
@@ -128,7 +140,7 @@ core::Checkpoint settled(const core::Scene& scene, double step, const std::share
   core::Timers timers;
   Model model(falling(scene, step), timers, ranks);
   const double fall = std::sqrt(2 * scene.column.size[1] / scene.column.gravity);
-  const double rest = at_rest * lifting_energy(model);
+  const double rest = at_rest * energy_of_fall(scene, model);
   const auto often = std::int64_t(std::ceil(of_fall * fall / step));
   Settling state{0, settling_time(scene, model.materials(), model.box()), 0};
   const double most = std::max(longest_wait * state.expected, 2 * of_fall * fall);

@@ -21,9 +21,9 @@ struct Settling {
 /// The particles of a scene, let fall from a loose random bed until they rest, with little bounce so that this takes
 /// little time, on a closed bottom, in a fluid that does not flow in, with a spring of rotation in place of a constant
 /// rolling moment. At rest: their kinetic energy without that of spin, which a contact at a point does not resist, is a
-/// millionth of what lifts each by its radius. Collective; on the first rank a checkpoint for Model::start_from. Throws
-/// core::NumericsError, with what still moves, if they do not come to rest in twenty times settling_time(),
-/// core::CaseError without gravity.
+/// millionth of what lifts each by its radius, or of what it has as it settles alone. Collective; on the first rank a
+/// checkpoint for Model::start_from. Throws core::NumericsError, with what still moves, if they do not come to rest in
+/// twenty times settling_time(), core::CaseError without gravity.
 /// \param step  of the model that starts from it, s  \param see  called now and then, on every rank
 [[nodiscard]] core::Checkpoint settled(const core::Scene& scene, double step,
                                        const std::shared_ptr<const core::Ranks>& ranks,

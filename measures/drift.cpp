@@ -59,16 +59,15 @@ std::optional<Drift> drift_of(std::span<const double> time, std::span<const doub
   return drift;
 }
 
-std::vector<DriftOfMeasure> drifts_of(std::span<const double> time,
-                                      const std::vector<std::pair<std::string, std::vector<double>>>& heights) {
+std::vector<DriftOfMeasure> drifts_of(std::span<const double> time, const std::vector<HeightSeries>& heights) {
   std::vector<DriftOfMeasure> found;
   if (time.empty()) return found;
   const Rows rows = last_quarter(time).rows(time);
-  for (const auto& [name, values] : heights) {
+  for (const auto& [name, values, settling] : heights) {
     const auto drift = drift_of(rows.of(time), rows.of(values));
     if (!drift || !std::isfinite(drift->rate)) continue;
-    const double until_doubled = std::abs(drift->rate) * (time.back() - time.front());
-    const bool steady = std::abs(drift->rate) <= drift->error || until_doubled <= matters * heights[0].second.back();
+    const double moved = std::abs(drift->rate) * std::max(time.back() - time.front(), settling);
+    const bool steady = std::abs(drift->rate) <= drift->error || moved <= matters * heights[0].values.back();
     found.push_back({name, *drift, steady});
   }
   return found;

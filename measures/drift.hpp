@@ -4,7 +4,6 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace polybed::measures {
@@ -25,11 +24,18 @@ struct DriftOfMeasure {
   bool steady = true;  ///< the drift cannot be told from 0, or does not matter
 };
 
-/// What the heights of a run still drift by over the last quarter of its time. It matters if another run as long would
-/// move one by more than a thousandth of the bed's height. Empty for a height that has too few rows there, or a row
-/// without a value.
-/// \param heights  by name, m, of each time; the first is that of the bed
-[[nodiscard]] std::vector<DriftOfMeasure> drifts_of(
-    std::span<const double> time, const std::vector<std::pair<std::string, std::vector<double>>>& heights);
+/// A height of a run at each of its times.
+struct HeightSeries {
+  std::string name;
+  std::vector<double> values;  ///< m
+  double settling = 0;         ///< s, in which what has it settles alone through the height of the bed
+};
+
+/// What the heights of a run still drift by over the last quarter of its time. It matters if another run as long, or
+/// the time of settling if that is longer, would move one by more than a thousandth of the bed's height. Empty for a
+/// height that has too few rows there, or a row without a value.
+/// \param heights  the first is that of the bed
+[[nodiscard]] std::vector<DriftOfMeasure> drifts_of(std::span<const double> time,
+                                                    const std::vector<HeightSeries>& heights);
 
 }  // namespace polybed::measures

@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "closures/sphere.hpp"
+#include "closures/terminal_velocity.hpp"
+#include "relevance/fluid_properties.hpp"
 
 namespace polybed::multiscale {
 
@@ -147,13 +149,28 @@ void find_discharge(const core::Scene& scene, const Window& window, const Invent
   if (to > from) bed.discharge = (out[to] - out[from]) / (window.time[to] - window.time[from]);
 }
 
+/// s, in which particles of a species settle alone through a height: 0 without a fluid, or where they do not.
+double settling_time(const core::Scene& scene, const core::Species& species, double height) {
+  if (!scene.fluid.present()) return 0;
+  const relevance::FluidConstants fluid = relevance::fluid_constants(scene.fluid);
+  const double excess = std::abs(species.density - fluid.density);
+  if (!(excess > 0 && scene.column.gravity > 0)) return 0;
+  return height /
+         closures::settling_velocity(species.diameter, excess, fluid.density, fluid.viscosity, scene.column.gravity);
+}
+
+/// A bed in a very viscous fluid creeps for longer than most runs last: its drift is judged against its settling.
 void judge_drift(const core::Scene& scene, const Window& window, BedOfRun& bed) {
-  std::vector<std::pair<std::string, Series>> heights;
-  const auto add = [&](const std::string& name) {
-    if (const Series* all = window.history.find(name + "_m")) heights.emplace_back(name, *all);
+  std::vector<measures::HeightSeries> heights;
+  const auto add = [&](const std::string& name, double settling) {
+    if (const Series* all = window.history.find(name + "_m")) heights.push_back({name, *all, settling});
   };
-  add("bed_height");
-  for (const core::Species& species : scene.species) add("centre_" + species.name);
+  const Series* top = window.history.find("bed_height_m");
+  std::vector<double> settling;
+  for (const core::Species& species : scene.species)
+    settling.push_back(top == nullptr ? 0 : settling_time(scene, species, last(*top)));
+  add("bed_height", settling.empty() ? 0 : *std::min_element(settling.begin(), settling.end()));
+  for (std::size_t j = 0; j < settling.size(); ++j) add("centre_" + scene.species[j].name, settling[j]);
   bed.drifts = measures::drifts_of(window.time, heights);
   for (const measures::DriftOfMeasure& drift : bed.drifts) bed.steady = bed.steady.value_or(true) && drift.steady;
 }

@@ -66,6 +66,34 @@ TEST(Settling, TakesAboutTheTimeExpected) {
   }
 }
 
+// 6 spheres of 10 mm in 75 Pa s settle alone at d^2 1500 g/(18 mu) = 1.09 mm/s, with a hundred-thousandth of the energy
+// that lifts them by their radius: all the way down it is little, and they rest only once they no longer sink.
+TEST(Settling, IsNoRestInAViscousLiquid) {
+  core::Scene scene = settling("liquid");
+  scene.species[0].diameter = 10e-3;
+  scene.column.size = {30e-3, 60e-3, 22e-3};
+  scene.column.cells = {3, 6, 1};
+  scene.bed.particles = {6};
+  scene.bed.start_solids_fraction = 0.15;
+  scene.dem.youngs_modulus = 5e4;
+  scene.fluid.viscosity = 75;
+  scene.inlet.superficial_velocity = {{0, 1e-4}};
+  core::Timers timers;
+  Model model(scene, timers);
+  const core::Checkpoint rest = settled(scene, model.limits().dt, nullptr);
+  model.start_from(rest);
+  const double alone = 1e-4 * 1500 * 9.81 / (18 * 75);
+  double lowest = 1, square = 0;
+  for (std::size_t i = 0; i < 6; ++i) {
+    const Motion& m = model.particles().motion[i];
+    lowest = std::min(lowest, model.particles().place[i].x[1]);
+    square += (m.v[0] * m.v[0] + m.v[1] * m.v[1] + m.v[2] * m.v[2]) / 6;
+  }
+  EXPECT_NEAR(lowest, 5e-3, 1e-4) << "on the bottom";
+  EXPECT_LT(std::sqrt(square), 1e-3 * alone);
+  EXPECT_GT(rest.numbers.at("time"), 0.5 * 10e-3 / alone) << "nobody falls a diameter in less";
+}
+
 // A constant rolling moment keeps a bed creeping, since its sign follows that of the spin. The bed rests all the same,
 // and the run begins from it with its own law: the same contacts, no energy of rolling springs.
 TEST(Settling, EndsUnderAConstantRollingMoment) {

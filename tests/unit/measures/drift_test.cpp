@@ -56,13 +56,13 @@ TEST(Drift, IsNotToldFromTooFewRows) {
   EXPECT_FALSE(drift_of(std::vector<double>(20, 1.0), std::vector<double>(20, 0.1)));
 }
 
-/// 40 s of a bed of 0.1 m, a row every 0.1 s; what its centre does in time is given.
+/// 40 s of a bed of 0.1 m, a row every 0.1 s; what its centre does in time is given, and the time of settling, s.
 template <class Centre>
-std::vector<DriftOfMeasure> judged(Centre&& centre) {
+std::vector<DriftOfMeasure> judged(Centre&& centre, double settling = 0) {
   const double none = std::numeric_limits<double>::quiet_NaN();
   std::vector<double> values;
   for (const double t : times(401, 0.1)) values.push_back(std::optional<double>(centre(t)).value_or(none));
-  return drifts_of(times(401, 0.1), {{"bed_height", std::vector(401, 0.1)}, {"centre_fine", values}});
+  return drifts_of(times(401, 0.1), {{"bed_height", std::vector(401, 0.1)}, {"centre_fine", values, settling}});
 }
 
 // 1e-3 * 0.1 m/40 s = 2.5 um/s is what matters.
@@ -80,6 +80,14 @@ TEST(Drifts, WhatHasSettledOrOnlySwingsIsSteady) {
   EXPECT_TRUE(judged([](double t) { return 0.05 - 0.02 * std::exp(-t); })[1].steady);
   EXPECT_TRUE(judged([](double t) { return 0.05 + 0.01 * std::sin(2 * std::numbers::pi * t / 0.7); })[1].steady);
   EXPECT_FALSE(judged([](double t) { return 0.05 - 0.02 * std::exp(-t / 20); })[1].steady) << "still settling";
+}
+
+// A bed that settles through its height in 1000 s and creeps at 1 % of that speed, 1e-6 m/s: 0.04 mm in another 40 s,
+// 1 mm in the time that counts. 0.05 % of it is at rest.
+TEST(Drifts, ABedThatCreepsIsNotAtRest) {
+  EXPECT_TRUE(judged([](double t) { return 0.05 - 1e-6 * t; })[1].steady);
+  EXPECT_FALSE(judged([](double t) { return 0.05 - 1e-6 * t; }, 1000)[1].steady);
+  EXPECT_TRUE(judged([](double t) { return 0.05 - 5e-8 * t; }, 1000)[1].steady);
 }
 
 TEST(Drifts, ASpeciesThatIsAbsentIsNotJudged) {
