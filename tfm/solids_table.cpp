@@ -1,6 +1,7 @@
 #include "tfm/solids_table.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -10,6 +11,7 @@
 #include <limits>
 #include <span>
 #include <stdexcept>
+#include <utility>
 
 #include "core/error.hpp"
 #include "core/output/file.hpp"
@@ -54,6 +56,26 @@ void save_table(core::OutputFile& table, const std::filesystem::path& path) {
   table.save(path);
 }
 
+/// The numbers along an axis; throws core::FileError for a dataset that has not one dimension.
+std::vector<double> read_axis(const core::OutputFile& table, const std::filesystem::path& path,
+                              const std::string& name) {
+  core::DataSet data = table.read(name);
+  if (data.shape.size() != 1)
+    throw core::FileError(
+        fmt::format("{}: {} has {} dimensions, an axis has one", path.string(), name, data.shape.size()));
+  return std::move(data.values);
+}
+
+/// The numbers of a dataset; throws core::FileError for one of another shape than the axes say.
+std::vector<double> read_shaped(const core::OutputFile& table, const std::filesystem::path& path,
+                                const std::string& name, const std::vector<std::size_t>& shape) {
+  core::DataSet data = table.read(name);
+  if (data.shape != shape)
+    throw core::FileError(fmt::format("{}: {} has the shape [{}], the axes say [{}]", path.string(), name,
+                                      fmt::join(data.shape, ", "), fmt::join(shape, ", ")));
+  return std::move(data.values);
+}
+
 /// Throws core::FileError unless all values lie in a range, ends included; no range holds a NaN.
 void require_range(const std::filesystem::path& path, const std::string& name, std::span<const double> values,
                    double least, double most) {
@@ -72,16 +94,7 @@ void require_axis(const std::filesystem::path& path, const std::string& name, st
     if (!(values[n] > values[n - 1])) throw core::FileError(fmt::format("{}: {} must rise", path.string(), name));
 }
 
-void require_size(const std::filesystem::path& path, const std::string& name, std::size_t found, std::size_t wanted) {
-  if (found != wanted)
-    throw core::FileError(fmt::format("{}: {} has {} values, the axes say {}", path.string(), name, found, wanted));
-}
-
-void require_quantity(const std::filesystem::path& path, const std::string& name, const TableQuantity& quantity,
-                      std::size_t points) {
-  require_size(path, name, quantity.value.size(), points);
-  require_size(path, name + "_se", quantity.error.size(), points);
-  require_size(path, name + "_n", quantity.seeds.size(), points);
+void require_quantity(const std::filesystem::path& path, const std::string& name, const TableQuantity& quantity) {
   require_range(path, name, quantity.value, std::numeric_limits<double>::min(), greatest_ratio);
   require_range(path, name + "_se", quantity.error, 0, greatest_ratio);
   require_range(path, name + "_n", quantity.seeds, 1, greatest_number);
@@ -90,14 +103,11 @@ void require_quantity(const std::filesystem::path& path, const std::string& name
 /// Throws core::FileError for values that no p_bed can have; whether it rises is the law's to check.
 void require_values(const std::filesystem::path& path, const BedPressure& bed) {
   require_range(path, "phi of p_bed", bed.phi, 0, densest);
-  require_size(path, "p_bed", bed.pressure.size(), bed.phi.size());
   require_range(path, "p_bed", bed.pressure, 0, greatest_number);
-  if (!bed.error.empty()) require_size(path, "p_bed_se", bed.error.size(), bed.phi.size());
   require_range(path, "p_bed_se", bed.error, 0, greatest_number);
 }
 
-/// Throws core::FileError for values that no table of sheared particles can have, and for arrays of another size than
-/// the axes say.
+/// Throws core::FileError for values that no table of sheared particles can have.
 void require_values(const std::filesystem::path& path, const SolidsTable& t) {
   constexpr double least = std::numeric_limits<double>::min();
   require_axis(path, "phi", t.phi, least, densest);
@@ -105,12 +115,11 @@ void require_values(const std::filesystem::path& path, const SolidsTable& t) {
   require_axis(path, "e", t.restitution, 0, 1);
   require_axis(path, "mu_p", t.friction, 0, 10);
   require_axis(path, "x2", t.share, 0, 1);
-  require_quantity(path, "p_ratio", t.pressure, t.size());
-  require_quantity(path, "mu_ratio", t.viscosity, t.size());
-  require_quantity(path, "gamma_ratio", t.dissipation, t.size());
-  require_quantity(path, "T_ratio_12", t.temperature, t.size());
-  if (!t.exchange.value.empty()) require_quantity(path, "beta_12_ratio", t.exchange, t.size());
-  require_size(path, "S", t.shear_number.size(), t.size());
+  require_quantity(path, "p_ratio", t.pressure);
+  require_quantity(path, "mu_ratio", t.viscosity);
+  require_quantity(path, "gamma_ratio", t.dissipation);
+  require_quantity(path, "T_ratio_12", t.temperature);
+  if (!t.exchange.value.empty()) require_quantity(path, "beta_12_ratio", t.exchange);
   require_range(path, "S", t.shear_number, 0, greatest_number);
   const std::array<double, 4> numbers{t.inertia, t.residual, t.left_out, t.exchange_drift};
   require_range(path, "lambda, fit_residual, left_out_residual or beta_12_drift", numbers, 0, greatest_number);
@@ -178,10 +187,12 @@ core::BoxRegime regime_of(const core::OutputFile& file, const std::filesystem::p
   throw core::FileError(path.string() + ": a table of regime \"" + name + "\"; there are dry, wet and bed");
 }
 
-BedPressure bed_pressure(const core::OutputFile& file, const char* phi) {
-  const bool uncertain = file.has("p_bed_se");
-  return {file.read(phi).values, file.read("p_bed").values,
-          uncertain ? file.read("p_bed_se").values : std::vector<double>()};
+BedPressure bed_pressure(const core::OutputFile& file, const std::filesystem::path& path, const char* phi) {
+  BedPressure bed{read_axis(file, path, phi), {}, {}};
+  const std::vector<std::size_t> shape{bed.phi.size()};
+  bed.pressure = read_shaped(file, path, "p_bed", shape);
+  if (file.has("p_bed_se")) bed.error = read_shaped(file, path, "p_bed_se", shape);
+  return bed;
 }
 
 }  // namespace
@@ -279,28 +290,30 @@ SolidsTable read_solids_table(const std::filesystem::path& path) {
     throw core::FileError(path.string() + ": a table of regime \"bed\" holds no sheared boxes");
   for (const auto& [name, text] : texts) table.*text = file.text_attribute("/", name);
   for (const auto& [name, number] : numbers) table.*number = file.attribute("/", name);
-  for (const auto& [name, axis] : axes) table.*axis = file.read(name).values;
-  for (const auto& [name, quantity] : quantities) {
-    TableQuantity& q = table.*quantity;
-    q = {file.read(name).values, file.read(std::string(name) + "_se").values,
-         file.read(std::string(name) + "_n").values};
+  std::vector<std::size_t> shape;
+  for (const auto& [name, axis] : axes) {
+    table.*axis = read_axis(file, path, name);
+    shape.push_back((table.*axis).size());
   }
-  table.shear_number = file.read("S").values;
+  const auto quantity_of = [&](const std::string& name) {
+    return TableQuantity{read_shaped(file, path, name, shape), read_shaped(file, path, name + "_se", shape),
+                         read_shaped(file, path, name + "_n", shape)};
+  };
+  for (const auto& [name, quantity] : quantities) table.*quantity = quantity_of(name);
+  table.shear_number = read_shaped(file, path, "S", shape);
   table.git_commit = file.text_attribute("/", "git_commit");
   if (file.has("beta_12_drift")) {  // files without it have ratios to another form, that of slow drift
-    table.exchange = {file.read("beta_12_ratio").values, file.read("beta_12_ratio_se").values,
-                      file.read("beta_12_ratio_n").values};
-    const std::vector<double> drift = file.read("beta_12_drift").values;
-    require_axis(path, "beta_12_drift", drift, 0, std::numeric_limits<double>::max());
-    table.exchange_drift = drift.front();
+    table.exchange = quantity_of("beta_12_ratio");
+    table.exchange_drift = read_shaped(file, path, "beta_12_drift", {1}).front();
+    require_range(path, "beta_12_drift", std::span(&table.exchange_drift, 1), 0, std::numeric_limits<double>::max());
   }
-  if (file.has("p_bed")) table.bed = bed_pressure(file, "phi_bed");
+  if (file.has("p_bed")) table.bed = bed_pressure(file, path, "phi_bed");
   require_values(path, table);
   return table;
 }
 
 BedPressure read_bed_table(const std::filesystem::path& path) {
-  BedPressure bed = bed_pressure(open_table(path), "phi");
+  BedPressure bed = bed_pressure(open_table(path), path, "phi");
   require_values(path, bed);
   return bed;
 }

@@ -9,19 +9,29 @@
 from __future__ import annotations
 
 import os
+import re
 import zlib
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from polybed.files import DamagedError, open_hdf5
+from polybed.files import DamagedError, fits, open_hdf5
 from polybed.page import table
 
 # Units of what is no ratio and no fraction; pressures of a fluidised bed are told over the weight of a layer of one diameter.
 BED = "(rho_p - rho_f) g D"
 UNITS = {"velocity": "m/s", "theta_bed": BED + "/rho_p"}
 AXES = ("phi", "stokes", "e", "mu_p", "x2")  # of sheared particles, in the order of the arrays
+
+
+QUANTITY = re.compile("S|.*_ratio(_12)?(_se|_n)?")  # an array over these axes
+
+
+def numbers(name: str, data: Any) -> np.ndarray:
+    if not hasattr(data, "shape"):
+        raise ValueError(f"{name} is a group in place of numbers")
+    return fits(data[...], data.shape, name)
 
 
 def checksum(arrays: Any) -> int:
@@ -40,7 +50,12 @@ class SolidsTable:
         self.path = Path(path)
         with open_hdf5(self.path, "polybed solids table") as file:
             self.attributes = dict(file.attrs)
-            self._arrays = {name: data[...] for name, data in file.items()}
+            self._arrays = {name: numbers(name, data) for name, data in file.items()}
+            for name, data in self._arrays.items():
+                if name in AXES:
+                    fits(data, (data.size,), name)
+                elif QUANTITY.fullmatch(name):
+                    fits(data, tuple(self._arrays[axis].size for axis in AXES), name)
         if "crc32" in self.attributes and self.attributes["crc32"] != checksum(self._arrays):
             raise DamagedError(self.path, "its checksum does not hold")
 

@@ -337,15 +337,37 @@ class Tables(Scratch):
                 if data is not None:
                     file[name] = data
             return change
+        with h5py.File(TABLE) as file:
+            shape = file["p_ratio"].shape
+        turned = np.full(shape[1::-1] + shape[2:], 0.5)  # as many numbers
         changes = [replaced(name, data) for name in ("p_ratio", "p_ratio_n", "phi", "e", "S", "T_ratio_12_se")
-                   for data in (None, [], [0.5], np.full(1000, 0.5), np.full((2, 2), 0.5))]
+                   for data in (None, [], [0.5], np.full(1000, 0.5), np.full((2, 2), 0.5), 0.5, turned, turned.ravel())]
         changes += [lambda file: file.attrs.__setitem__("lambda", np.nan), lambda file: file.attrs.__setitem__("size_ratio", -1.0),
                     lambda file: file.attrs.__delitem__("regime")]
         for n, done in enumerate(self.checked([self.changed(f"{n}", change) for n, change in enumerate(changes)])):
-            if n == 17:  # e = [0.5] is another table
+            if n == 26:  # e = [0.5] is another table
                 continue
             self.assertIn(done.returncode, (FILE, WRONG_CASE), (n, done.stderr))
             self.assertEqual(done.stderr.count("\n"), 1, (n, done.stderr))
+
+    def test_what_are_no_numbers_is_refused_here_and_in_python(self):
+        makes = [lambda file, name, data: file.create_dataset(name, data=np.full(data.shape, b"0.5")),
+                 lambda file, name, data: file.create_dataset(name, data=np.full(data.shape, "0.5", object), dtype=h5py.string_dtype()),
+                 lambda file, name, data: file.create_group(name).create_dataset("values", data=data),
+                 lambda file, name, data: file.create_dataset(name, data=np.zeros(data.shape, [("a", "f8"), ("b", "i4")])),
+                 lambda file, name, data: file.create_dataset(name, data=data[None])]
+        made = []
+        for name, make in ((name, make) for name in ("p_ratio", "mu_ratio_se", "phi", "S") for make in makes):
+            def change(file, name=name, make=make):
+                data = file[name][...]
+                del file[name], file.attrs["crc32"]
+                make(file, name, data)
+            made.append((self.changed(f"{len(made)}", change, seal=False), name))
+        for (path, name), done in zip(made, self.checked([path for path, _ in made])):
+            self.assertEqual(done.returncode, FILE, (path, done.stderr))
+            self.assertRegex(done.stderr, rf"^(?=.*{path})(?=.*\b{name}\b).*\n$", path)
+            with self.assertRaisesRegex(polybed.solids_table.DamagedError, rf"{path}.*\b{name}\b"):
+                polybed.solids_table.read_table(path).names()
 
     def test_a_changed_number_is_noticed_here_and_in_python(self):
         def change(file):
