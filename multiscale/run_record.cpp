@@ -73,8 +73,9 @@ std::vector<std::string> exceeded_lines(std::span<const measures::WorstInvariant
   std::vector<std::string> lines;
   for (const measures::WorstInvariant& w : worst)
     if (!(w.value <= w.limit))
-      lines.push_back(fmt::format("{} exceeded its limit{}", w.name,
-                                  w.broken() ? " more than tenfold: the results do not conserve it" : ""));
+      lines.push_back(fmt::format("{} exceeded its limit{}: off by {:.2g}, the limit is {:g}{}{}", w.name,
+                                  w.broken() ? " more than tenfold, and the results do not conserve it" : "", w.value,
+                                  w.limit, w.remedy.empty() ? "" : "; ", w.remedy));
   return lines;
 }
 
