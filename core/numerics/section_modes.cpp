@@ -1,9 +1,11 @@
 #include "core/numerics/section_modes.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "core/numerics/metric.hpp"
+#include "core/vectors.hpp"
 
 namespace polybed::core {
 
@@ -16,6 +18,34 @@ FaceField open_faces(const Grid& column) {
   FaceField open = make_face_field(column, 1);
   weigh_faces(column, open);
   return open;
+}
+
+/// Rows of n numbers times an n by n matrix: out = in A. Four rows of A at a time, for eight rows of numbers, which
+/// stay at hand. Eigen's product takes ten times the instructions at the width that all processors have.
+void multiply_rows(const double* in, const double* matrix, Index n, Index rows, Index pitch, double* out) {
+  constexpr Index block = 8;
+  for (Index first = 0; first < rows; first += block) {
+    const Index last = std::min(rows, first + block);
+    for (Index row = first; row < last; ++row) std::fill_n(out + row * pitch, n, 0.0);
+    Index k = 0;
+    for (; k + 4 <= n; k += 4) {
+      const double *a = matrix + k * n, *b = a + n, *c = b + n, *d = c + n;
+      for (Index row = first; row < last; ++row) {
+        const double* x = in + row * pitch + k;
+        const double xa = x[0], xb = x[1], xc = x[2], xd = x[3];
+        double* y = out + row * pitch;
+#pragma GCC ivdep
+        for (Index i = 0; i < n; ++i) y[i] += (a[i] * xa + b[i] * xb) + (c[i] * xc + d[i] * xd);
+      }
+    }
+    for (; k < n; ++k)
+      for (Index row = first; row < last; ++row) {
+        const double x = in[row * pitch + k];
+        double* y = out + row * pitch;
+#pragma GCC ivdep
+        for (Index i = 0; i < n; ++i) y[i] += matrix[k * n + i] * x;
+      }
+  }
 }
 
 /// Share that an even or odd mode, of length 1 over a pair of mirror images, has in a cell.
@@ -33,7 +63,7 @@ bool SectionModes::serves(const Grid& column) {
   const FaceField open = open_faces(column);
   for (std::size_t a = 0; a < 3; ++a)
     for (int k = 0; k < nz; ++k)
-      for (int j = 2; j < ny; ++j)
+      for (int j = 0; j < ny; ++j)
         for (int i = 0; i < nx; ++i)
           if (open[a][std::size_t(column.index(i, j, k))] != open[a][std::size_t(column.index(i, 1, k))]) return false;
   return true;
@@ -77,6 +107,7 @@ SectionModes::SectionModes(const Grid& column)
     const Eigen::VectorXd scale = (volume.array() > 0).select(volume, 1).cwiseInverse().cwiseSqrt();
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> found(scale.asDiagonal() * differences * scale.asDiagonal());
     modes_[kind] = scale.asDiagonal() * found.eigenvectors();
+    turned_[kind] = modes_[kind].transpose();
     for (Eigen::Index m = 0; m < quarter_; ++m)
       rates_[kind * std::size_t(quarter_) + std::size_t(m)] = std::max(found.eigenvalues()[m], 0.0);
   }
@@ -102,15 +133,17 @@ void SectionModes::to_modes(const Field& cells, Matrix& work, Matrix& modes) con
       }
     }
   for (std::size_t kind = 0; kind < 4; ++kind) {
-    const auto first = Eigen::Index(kind) * quarter_;
-    modes.middleCols(first, quarter_).noalias() = work.middleCols(first, quarter_) * modes_[kind];
+    const Index first = Index(kind) * quarter_;
+    in_vectors<multiply_rows>(work.data() + first, modes_[kind].data(), quarter_, work.rows(), work.cols(),
+                              modes.data() + first);
   }
 }
 
 void SectionModes::to_cells(const Matrix& modes, Matrix& work, Field& cells) const {
   for (std::size_t kind = 0; kind < 4; ++kind) {
-    const auto first = Eigen::Index(kind) * quarter_;
-    work.middleCols(first, quarter_).noalias() = modes.middleCols(first, quarter_) * modes_[kind].transpose();
+    const Index first = Index(kind) * quarter_;
+    in_vectors<multiply_rows>(modes.data() + first, turned_[kind].data(), quarter_, work.rows(), work.cols(),
+                              work.data() + first);
   }
   const auto [nx, ny, nz] = grid_.cells;
   for (int j = 0; j < ny; ++j)

@@ -30,6 +30,7 @@ class SectionModes {
   Grid grid_;
   Index half_x_, half_z_, quarter_;  ///< cells, the middle ones among them
   std::array<Matrix, 4> modes_;      ///< even or odd along x, then along z; a column each
+  std::array<Matrix, 4> turned_;     ///< and a row each
   std::vector<double> rates_;
 };
 

@@ -102,22 +102,29 @@ std::vector<BlockData> step_data(const Grid& grid, std::span<const FieldName> na
   return data;
 }
 
-/// Whether a wall closes cells of the grid, which then hold no fluid although their voidage is 1.
-bool has_closed_cells(const Grid& grid) { return grid.metric && !grid.metric->around_axis; }
+/// Open volumes of cells over a whole one's where a wall closes some, which then contain no fluid although their
+/// voidage is 1; else empty.
+std::vector<double> open_volumes(const Grid& grid) {
+  if (!grid.metric) return {};
+  std::vector<double> open = packed(grid, {grid.metric->volume}, 1);
+  return std::count(open.begin(), open.end(), 0.0) > 0 ? open : std::vector<double>();
+}
 
 void write_grid(const Grid& grid, OutputFile& file) {
   for (int axis = 0; axis < 3; ++axis) {
     const std::vector<double> faces = face_positions(grid, axis);
     file.write(std::string("grid/") + axis_names[std::size_t(axis)], {faces.size()}, faces);
   }
-  if (has_closed_cells(grid)) file.write("grid/open", cell_slab(grid, 0).shape, packed(grid, {grid.metric->volume}, 1));
+  if (const std::vector<double> open = open_volumes(grid); !open.empty())
+    file.write("grid/open", cell_slab(grid, 0).shape, open);
 }
 
 bool has_grid(const Grid& grid, const OutputFile& file) {
   for (int axis = 0; axis < 3; ++axis)
     if (file.read(std::string("grid/") + axis_names[std::size_t(axis)]).values != face_positions(grid, axis))
       return false;
-  return !has_closed_cells(grid) || file.read("grid/open").values == packed(grid, {grid.metric->volume}, 1);
+  const std::vector<double> open = open_volumes(grid);
+  return open.empty() || file.read("grid/open").values == open;
 }
 
 /// Numbers per axis, slowest first: cells and `more` of each.
@@ -163,12 +170,13 @@ std::string fields_xdmf(const Grid& grid, std::span<const FieldName> names, std:
       "<?xml version=\"1.0\"?>\n<Xdmf Version=\"3.0\">\n  <Domain>\n"
       "    <Grid Name=\"fields\" GridType=\"Collection\" CollectionType=\"Temporal\">\n";
   const std::string mesh = geometry(grid);
+  const std::string open = open_volumes(grid).empty() ? "" : attribute(grid, {"open"}, "fields.h5", "grid");
   for (std::size_t step = 0; step < times.size(); ++step) {
     text += fmt::format("      <Grid Name=\"{}\" GridType=\"Uniform\">\n        <Time Value=\"{}\"/>\n",
                         step_name(step), times[step]);
     text += mesh;
     for (const FieldName& field : names) text += attribute(grid, field, fmt::format("fields/{}.h5", step_name(step)));
-    if (has_closed_cells(grid)) text += attribute(grid, {"open"}, "fields.h5", "grid");
+    text += open;
     text += "      </Grid>\n";
   }
   return text + "    </Grid>\n  </Domain>\n</Xdmf>\n";

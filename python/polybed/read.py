@@ -60,14 +60,15 @@ class Run:
         self.directory: Path = self._folder.path
         self.time: np.ndarray = np.empty(0)  # of the stored fields, s
         self.faces: dict[str, np.ndarray] = {}  # of the cells along x, y, z, m
-        self.open: np.ndarray | None = None  # of a cylinder, [z][y][x]: open volume of cells over that of whole ones, 0 beyond the wall
+        self.open: np.ndarray | None = None  # where a wall closes cells: open volume of each over a whole one's, in the order of fields
         path = self._folder.file("fields.h5")
         if path.exists():
             with open_hdf5(path, "polybed fields") as file:
                 self.time = rising(file["time_s"][:], "time_s")
                 self.faces = {axis: rising(file["grid"][axis][:], f"grid/{axis}") for axis in "xyz"}
                 if "open" in file["grid"]:
-                    self.open = fits(file["grid"]["open"][...], tuple(len(self.faces[axis]) - 1 for axis in "zyx"), "grid/open")
+                    values, cells = file["grid"]["open"][...], tuple(len(self.faces[axis]) - 1 for axis in "zyx")
+                    self.open = fits(values, cells[3 - values.ndim :], "grid/open")
         self.fields = self._field_names()
         self.particles = Particles(self._folder)
 

@@ -8,7 +8,7 @@ from polybed import search
 from polybed.drawing.fields import voidages
 from polybed.drawing.maps import Group, draw_maps
 from polybed.drawing.particles import Views
-from polybed.drawing.style import fitted, greatest_fraction, in_plane, shown_height, title_of, wall_to_wall
+from polybed.drawing.style import as_shown, fitted, greatest_fraction, in_plane, shown_height, title_of
 from polybed.in_place import in_place
 
 LENGTH = 12  # s, about what a film lasts
@@ -62,7 +62,7 @@ def field_frames(run):
 
     def show(step):
         for mesh, name in zip(flat, names):
-            mesh.set_array(wall_to_wall(run, in_plane(run.field(name)[step])).ravel())
+            mesh.set_array(as_shown(run, in_plane(run.field(name)[step])).ravel())
         title.set_text(fitted(title_of(run, run.time[step], maps=True, digits=digits), figure, 10))
 
     return figure, len(run.time), show

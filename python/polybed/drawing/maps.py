@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 import matplotlib.pyplot as plt
 import numpy as np
 
-from polybed.drawing.style import EMPTY, faces_across, fitted, length_unit, wall_to_wall, width_of
+from polybed.drawing.style import EMPTY, as_shown, faces_across, fitted, length_unit, width_of
 from polybed.files import DamagedError
 from polybed.record import case_of
 
@@ -75,7 +75,7 @@ def frame(axes, run, title, top, first):
 def draw_map(axes, run, group, title, values, top, first):
     """One map in the unit of the run, and its mesh."""
     factor = length_unit(run)[0]
-    mesh = axes.pcolormesh(faces_across(run) * factor, run.faces["y"] * factor, wall_to_wall(run, values), rasterized=True, **group.mapping())
+    mesh = axes.pcolormesh(faces_across(run) * factor, run.faces["y"] * factor, as_shown(run, values), rasterized=True, **group.mapping())
     frame(axes, run, title, top, first)
     return mesh
 

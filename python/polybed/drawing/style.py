@@ -75,8 +75,10 @@ def around_axis(run):
         return False
 
 
-def wall_to_wall(run, plane):
-    """Values [y][x] on both sides of the axis, where a run stores one."""
+def as_shown(run, plane):
+    """Values [y][x] as a map shows them: nothing beyond the wall, and both sides of an axis."""
+    if run.open is not None:
+        plane = np.ma.masked_where(in_plane(run.open) == 0, plane)
     if not around_axis(run):
         return plane
     return (np.ma if np.ma.isMaskedArray(plane) else np).hstack([plane[:, ::-1], plane])

@@ -3,7 +3,7 @@
 import numpy as np
 
 from polybed.drawing.maps import walls_of
-from polybed.drawing.style import COLOURS, FEW_SOLIDS, around_axis, in_plane, length_unit, vector_in_plane, wall_to_wall
+from polybed.drawing.style import COLOURS, FEW_SOLIDS, around_axis, as_shown, faces_across, in_plane, length_unit, vector_in_plane
 from polybed.drawing.units import fitting
 from polybed.particles import step_shown
 from polybed.record import case_of
@@ -41,7 +41,7 @@ def read_maps(run, chosen, share):
             plane = vector_in_plane(fields[name])[..., 1] if kind == "velocity" else in_plane(fields[name])
             if kind == "velocity" and f"phi_{label}" in fields:
                 plane = np.where(in_plane(fields[f"phi_{label}"]) > FEW_SOLIDS, plane, np.nan)
-            maps[name].append(wall_to_wall(run, coarse(plane, share)).astype(np.float32))
+            maps[name].append(coarse(np.ma.filled(as_shown(run, plane), np.nan), share).astype(np.float32))
     return {name: np.stack(rows) for name, rows in maps.items()}
 
 
@@ -62,7 +62,7 @@ def rows_shown(run, maps):
     """How many rows from the bottom: a fifth above the highest solids of all steps."""
     solids = sum(maps[name] for name, _, kind in names_of(run) if kind == "solids")
     count = next(iter(maps.values())).shape[1]
-    filled = np.flatnonzero(np.max(solids, axis=(0, 2)) > FEW_SOLIDS) if np.ndim(solids) else []
+    filled = np.flatnonzero(np.max(np.nan_to_num(solids), axis=(0, 2)) > FEW_SOLIDS) if np.ndim(solids) else []
     return min(count, max(1, int(np.ceil(1.2 * (filled[-1] + 1))))) if len(filled) else count
 
 
@@ -89,12 +89,11 @@ def maps_of(run):
         kept = thinned(len(chosen), len(chosen) // 2)
         chosen, maps = chosen[kept], {name: values[kept] for name, values in maps.items()}
     ny, nx = next(iter(maps.values())).shape[1:]
-    faces = run.faces["x"], run.faces["y"]
-    sides = 2 if around_axis(run) else 1
-    size = [float(sides * faces[0][nx // sides * share] * factor), float(faces[1][rows * share] * factor)]
+    across = faces_across(run)
+    size = [float((across[nx * share] - across[0]) * factor), float(run.faces["y"][rows * share] * factor)]
     notes = [f"{len(chosen)} of {len(run.time)} stored times"] if len(chosen) < len(run.time) else []
     notes += [f"each pixel is the mean of {share} x {share} cells"] if share > 1 else []
-    notes += ["the plane at half depth"] if run.dimensions == 3 else ["both sides of the axis"] if sides == 2 else []
+    notes += ["the plane at half depth"] if run.dimensions == 3 else ["both sides of the axis"] if around_axis(run) else []
     if "solids" in scales and any(np.nanmax(values) > 1.1 * scales["solids"][1] for name, values in maps.items() if name.startswith("phi_")):
         notes.append("the scale of the solids fraction is that of the later half")
     return {"time": plain_numbers(run.time[chosen]), "nx": nx, "ny": rows, "size": size, "maps": found, "note": "; ".join(notes),

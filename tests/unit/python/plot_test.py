@@ -228,6 +228,13 @@ class AroundAxis(SampleRun):
         self.assertEqual((on_page["nx"], on_page["size"][0]), (36, 120))
         self.assertIn("both sides", on_page["note"])
 
+    def test_nothing_is_shown_beyond_the_wall(self):
+        self.sample.open = np.ones((60, 18))
+        self.sample.open[:, -1] = 0
+        shown = style.as_shown(self.sample, self.sample.phi_fine[4])
+        np.testing.assert_array_equal(np.flatnonzero(shown.mask.all(axis=0)), [0, 35])
+        self.assertTrue(beds.maps_of(self.sample))
+
     def test_a_film_keeps_both_sides(self):
         animation.film(self.sample, self.directory / "film.gif")
         self.assertTrue((self.directory / "film.gif").exists())

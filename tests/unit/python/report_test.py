@@ -218,7 +218,7 @@ class Noise:
         self.species = [f"s{n}" for n in range(species)]
         self.fields = [*(f"phi_{name}" for name in self.species), *(f"u_{name}" for name in self.species), "voidage", "u_fluid"]
         self.faces = {"x": np.linspace(0, 0.1, cells[1] + 1), "y": np.linspace(0, 0.3, cells[0] + 1)}
-        self.size, self.dimensions, self.record = (0.1, 0.3), 2, {}
+        self.size, self.dimensions, self.record, self.open = (0.1, 0.3), 2, {}, None
 
     def noise(self, name):
         return self.generator.random((*self.cells, 2) if name.startswith("u_") else self.cells)
