@@ -14,10 +14,10 @@ namespace polybed::multiscale {
 /// Forces over those of Stokes at the superficial velocity, means over the spheres of each species. Where one species
 /// is passed, those by its relative motion alone.
 struct BoxDrag {
-  std::vector<double> net, pure;            ///< n_j, f_j; of free spheres each at its own velocity
-  std::vector<double> slip, along, across;  ///< of free spheres: superficial, and rms of one's own velocity, m/s
-  double cells = 0;                         ///< of the smallest diameter, as the edge of the box allows
-  double change = 0, imbalance = 0;  ///< of free spheres the momentum of liquid and spheres that has got lost, relative
+  std::vector<double> net, pure;             ///< n_j, f_j; of free spheres each at its own velocity
+  std::vector<double> slip, along, across;   ///< free spheres: superficial slip, rms velocities within a species, m/s
+  double cells = 0;                          ///< of the smallest diameter, as the edge of the box allows
+  double change = 0, imbalance = 0;          ///< of free spheres: drift of the momentum of fluid and spheres
   double steps = 0, sites = 0, seconds = 0;  ///< of fluid and spheres in the box; wall time of the steps
 };
 

@@ -62,7 +62,7 @@ lattice::FlowSetup setup_of(const BoxPlan& plan) {
   return {{plan.edge, plan.edge, plan.edge}, plan.units.viscosity, true, lattice::Wall::interpolated};
 }
 
-/// Of the fastest sphere, with room for what contacts do.
+/// Four times the speed at which the fastest species falls alone: contacts push some spheres faster.
 double greatest_speed(const BoxPlan& plan) { return 4 * plan.units.speed / plan.scale / plan.step; }
 
 }  // namespace
@@ -100,7 +100,8 @@ void FreeBox<Real>::step() {
   let_walls_follow();
 }
 
-/// On a site of the fluid: less the gradient of the mean pressure.
+/// Force on a site of the fluid, less the gradient of the mean pressure: it balances what the spheres weigh in the
+/// liquid, so that no force acts on the whole box.
 template <class Real>
 double FreeBox<Real>::push() const {
   double weight = 0, volume = 0;
@@ -111,7 +112,7 @@ double FreeBox<Real>::push() const {
   return weight / (flow_.fluid_sites() + volume);
 }
 
-/// By the fluid, their weight and the mean pressure.
+/// Impulses of the fluid, the weight and the mean pressure.
 template <class Real>
 void FreeBox<Real>::kick_spheres() {
   const double speed = 1 / plan_.scale / plan_.step, spin = 1 / plan_.step;  // units of the lattice, m/s and 1/s

@@ -20,15 +20,16 @@ class FreeBox {
   void step();
   /// Walls are where the spheres are, and move as they do.
   void let_walls_follow();
-  /// Between windows: lists of neighbours are made anew, as a box that is taken up again does, and mass is levelled.
+  /// Levels the density and lists the neighbours anew, as a box that is taken up again does: both then have the same
+  /// bits.
   void begin_window();
-  /// Counts the velocities of this moment.
+  /// Adds the present velocities to the means.
   void sample();
-  /// Means of all samples and of the forces since forget().
+  /// Means of the samples and forces since forget().
   [[nodiscard]] BoxDrag means() const;
   void forget() { sums_ = Sums(sums_.of.size()); }
 
-  /// Along x, of liquid and spheres, in units of the lattice; and the sum of its amounts over the spheres.
+  /// Along x, in units of the lattice: of liquid and spheres together; the sum of the amounts over the spheres.
   struct Momentum {
     double all = 0, of_spheres = 0;
   };
@@ -41,7 +42,7 @@ class FreeBox {
   [[nodiscard]] dem::Model& spheres() { return spheres_; }
 
  private:
-  /// Of a sphere of a species, in units of the lattice.
+  /// A sphere of a species, in units of the lattice.
   struct Body {
     double radius = 0, volume = 0, mass = 0, inertia = 0, weight = 0;  ///< weight less buoyancy in the liquid at rest
   };
@@ -62,9 +63,9 @@ class FreeBox {
   double voidage_;
   BoxPlan plan_;
   std::vector<Body> bodies_;
-  std::vector<double> count_;  ///< of spheres of each species
+  std::vector<double> count_;  ///< spheres of each species
   core::Timers timers_;
-  int substeps_;  ///< of the spheres in two steps of the fluid
+  int substeps_;  ///< steps of the spheres in two of the fluid
   dem::Model spheres_;
   lattice::Flow<Real> flow_;
   Sums sums_;

@@ -19,7 +19,7 @@ namespace {
 /// Mean velocity in the pores, cells per step: a Mach number of 0.05, so that the fluid stays nearly incompressible
 /// where it is faster.
 constexpr double pore_speed = 0.03;
-/// Of a sphere that falls alone, likewise: a Mach number of 0.09, which hindered ones halve.
+/// The same for a sphere that falls alone: a Mach number of 0.09, half of that for hindered spheres.
 constexpr double fall_speed = 0.05;
 /// Of Stokes flow: the drag does not depend on it, and the greater it is the sooner the flow is steady.
 constexpr double stokes_viscosity = 0.5, stokes_speed = 1e-3;
@@ -27,8 +27,8 @@ constexpr double stokes_viscosity = 0.5, stokes_speed = 1e-3;
 constexpr double usual_stokes = 10, usual_inertia = 20;
 /// Most at a Reynolds number above 0.
 constexpr double most_viscosity = 1.0 / 6;
-/// Of its box, through which the fastest species falls while free spheres are simulated, hindered as voidage^3: the law
-/// of Richardson and Zaki has 2.4 to 4.65.
+/// Boxes through which the fastest species falls while free spheres are simulated, hindered as voidage^3: the exponent
+/// of Richardson and Zaki is 2.4 to 4.65.
 constexpr double crossings = 10, hindrance = 3;
 /// Steps of free spheres between two moments at which mass is levelled and a run may stop.
 constexpr double free_window = 200;
@@ -41,7 +41,7 @@ double sauter(const core::Scene& scene, const std::vector<double>& share) {
   return closures::sauter_diameter(share, diameter);
 }
 
-/// Of the fastest species alone.
+/// The fastest species alone in the fluid.
 struct Fall {
   double speed = 0, viscosity = 0;  ///< m/s; kinematic, m2/s
 };

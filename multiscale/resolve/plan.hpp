@@ -21,7 +21,7 @@ struct ResolvePoint {
 /// Cells of the smallest diameter on a grid.
 [[nodiscard]] double cells_of(const core::Resolve& resolve, int grid);
 
-/// Of all species, m.
+/// The smallest of all species, m.
 [[nodiscard]] double least_diameter(const core::Scene& scene);
 
 /// Hydraulic diameter of the pores over the Sauter diameter.
@@ -50,7 +50,7 @@ struct BoxPlan {
   Units units;
   double window = 0;       ///< in which a pore forgets its past; of free spheres, between two looks
   double step = 0;         ///< s, of free spheres
-  std::int64_t steps = 0;  ///< of free spheres
+  std::int64_t steps = 0;  ///< until a box of free spheres ends
 };
 [[nodiscard]] BoxPlan plan_of(const core::Scene& scene, const ResolvePoint& point);
 

@@ -39,7 +39,7 @@ RowValue value_of(const RowBoxes& boxes, std::vector<double> BoxDrag::*column, s
   });
 }
 
-/// Of the Sauter diameter and the mean superficial slip of the solids.
+/// With the Sauter diameter and the mean superficial slip of the solids.
 double reynolds_of_slip(const core::Scene& scene, const std::vector<double>& share, const RowBoxes& boxes) {
   const relevance::FluidConstants fluid = relevance::fluid_constants(scene.fluid);
   double slip = 0;
@@ -51,7 +51,7 @@ double reynolds_of_slip(const core::Scene& scene, const std::vector<double>& sha
   return fluid.density * slip * closures::sauter_diameter(share, diameter) / fluid.viscosity;
 }
 
-/// Of a cell and the fastest species: how well the flow round it is resolved.
+/// With a cell and the slip of the fastest species in the pores: how well the flow past it is resolved.
 double reynolds_of_cell(const core::Scene& scene, double voidage, const RowBoxes& boxes) {
   const relevance::FluidConstants fluid = relevance::fluid_constants(scene.fluid);
   double slip = 0;

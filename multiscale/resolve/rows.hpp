@@ -9,7 +9,7 @@
 
 namespace polybed::multiscale {
 
-/// Of one value over the packings, on the finest grid. Not extrapolated: the error of these walls changes its sign
+/// A value over the packings on the finest grid. Not extrapolated: the error of these walls changes its sign
 /// before it falls with the square of the cells, and the extrapolated value was farther from the limit (record of
 /// resolved flow).
 struct RowValue {

@@ -20,7 +20,7 @@ using core::Broken;
 constexpr double least_pore = 3;
 /// Density of free spheres over that of the fluid: forces of the fluid act on them one step late.
 constexpr double least_ratio = 1.1;
-/// Of a box of free spheres over the largest diameter: none touches another and its image, nor do their films.
+/// Width of a box of free spheres over the largest diameter: no sphere or film touches another and its image.
 constexpr double least_width = 2.05;
 
 bool asks(const core::Scene& scene) {

@@ -21,7 +21,7 @@ void add(const Point& b, double times, Point& a) {
   for (std::size_t k = 0; k < 3; ++k) a[k] += times * b[k];
 }
 
-/// Of a rigid body at an arm from its centre.
+/// Velocity of a rigid body at an arm from its centre.
 Point velocity_of(const Motion& motion, const Point& arm) {
   Point u = cross(motion.spin, arm);
   add(motion.velocity, 1, u);
