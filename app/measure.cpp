@@ -61,11 +61,14 @@ StoredRun read_run(const std::filesystem::path& directory) {
     const auto begin = all.begin() + std::ptrdiff_t(n * slabs);
     return std::vector<double>(begin, begin + std::ptrdiff_t(slabs));
   };
-  const bool has_pressure = std::find(stored.names.begin(), stored.names.end(), "p") != stored.names.end();
+  const auto has = [&](const char* name) {
+    return std::find(stored.names.begin(), stored.names.end(), name) != stored.names.end();
+  };
   for (std::size_t n = 0; n < stored.time.size(); ++n) {
     Profile profile;
     for (const std::string& name : run.species) profile.fraction.push_back(row_of("phi_" + name, n));
-    if (has_pressure) profile.pressure = row_of("p", n);
+    if (has("p")) profile.pressure = row_of("p", n);
+    if (has(core::area_of_slabs)) profile.areas = row_of(core::area_of_slabs, n);
     profile.slab = 2 * stored.height.front();
     run.beds.push_back({std::move(profile)});
   }

@@ -15,6 +15,11 @@
 
 namespace polybed::fluid {
 
+/// A velocity with that of the open faces beside them on faces that a sloping wall closes: what flows along it keeps
+/// its momentum, although the wall is stairs of cells. Collective.
+[[nodiscard]] core::Field slipping(const core::Grid& grid, const Boundaries& boundaries, const core::Field& velocity,
+                                   int axis);
+
 /// Sets the acceleration of a phase to its convection on its moving faces, m/s2, and to 0 elsewhere.
 /// \param limited   second order with limited slopes; else of first order, upwind
 /// \param of_fluid  whether the outlet's faces move
@@ -32,12 +37,15 @@ void convection(const core::Grid& grid, const Boundaries& boundaries, bool limit
     std::fill(rate.begin(), rate.end(), 0.0);
     core::Box inside = core::interior_faces(grid, axis);
     if (!of_fluid) inside = boundaries.with_solids(inside);
+    const bool tapered = grid.metric && grid.metric->tapered();
+    const core::Field along_wall = tapered ? slipping(grid, boundaries, velocity[a], axis) : core::Field();
+    const core::Field& carried = tapered ? along_wall : velocity[a];
     core::with_metric(
         grid, [&](const auto& metric) __attribute__((always_inline)) {
           if (limited)
-            core::subtract_carried<core::LimitedFace>(metric, grid, flux, velocity[a], axis, inside, rate);
+            core::subtract_carried<core::LimitedFace>(metric, grid, flux, carried, axis, inside, rate);
           else
-            core::subtract_carried<core::UpwindFace>(metric, grid, flux, velocity[a], axis, inside, rate);
+            core::subtract_carried<core::UpwindFace>(metric, grid, flux, carried, axis, inside, rate);
         });
     double* to = rate.data();
     core::for_each_row(grid, inside, [&](core::Index begin, core::Index end) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "core/numerics/metric.hpp"
 #include "core/numerics/ranks.hpp"
@@ -67,24 +68,29 @@ double overlap(const core::Grid& grid, int axis, int m, double from, double to) 
 
 /// By what the shares of a part of a round column are multiplied, so that with the open shares of its faces they have
 /// the part's own area. 0 where the part lies on closed cells alone.
-double scale_of_part(const core::Grid& grid, const std::vector<double>& from, const std::vector<double>& to) {
-  if (!grid.metric || grid.metric->around_axis || from.size() < 2) return 1;
-  const core::CrossSection& section = grid.metric->section;
+double scale_of_part(const core::Grid& grid, const std::vector<double>& from, const std::vector<double>& to,
+                     int level) {
+  if (!grid.metric || from.empty()) return 1;
+  const bool rings = grid.metric->around_axis;
+  if (rings ? !grid.metric->tapered() : from.size() < 2) return 1;
+  const core::CrossSection& section = grid.metric->level(level);
   double open = 0;
   for (int k = 0; k < section.depth; ++k)
     for (int i = 0; i < section.width; ++i)
-      open +=
-          overlap(grid, 0, i, from[0], to[0]) * overlap(grid, 2, k, from[1], to[1]) * section.volume[section.at(i, k)];
-  const double own = (to[0] - from[0]) * (to[1] - from[1]) / (grid.spacing[0] * grid.spacing[2]);
+      open += overlap(grid, 0, i, from[0], to[0]) * (rings ? 1.0 : overlap(grid, 2, k, from[1], to[1])) *
+              section.open_y[section.at(i, k)];
+  const double area =
+      rings ? std::numbers::pi * (to[0] * to[0] - from[0] * from[0]) : (to[0] - from[0]) * (to[1] - from[1]);
+  const double own = area / (grid.spacing[0] * grid.spacing[2]);
   return open > 0 ? own / open : 0;
 }
 
 }  // namespace
 
-std::vector<double> face_shares(const core::Grid& grid, const std::vector<double>& from,
-                                const std::vector<double>& to) {
+std::vector<double> face_shares(const core::Grid& grid, const std::vector<double>& from, const std::vector<double>& to,
+                                bool top) {
   std::vector<double> share;
-  const double scale = scale_of_part(grid, from, to);
+  const double scale = scale_of_part(grid, from, to, top ? grid.column_cells(1) : 0);
   for (int k = 0; k < grid.cells[2]; ++k)
     for (int i = 0; i < grid.cells[0]; ++i) {
       const double along_x = from.empty() ? 1.0 : overlap(grid, 0, grid.before[0] + i, from[0], to[0]);
@@ -119,7 +125,7 @@ double Inlet::mean_over_bottom(const std::vector<double>& share) const {
       for (Index c = begin; c < end; ++c, ++face) here[face] *= grid_.metric->open[1][std::size_t(c)];
     });
   }
-  return core::sum_of_ranks(grid_, here) / core::open_cells_of_layer(grid_);
+  return core::sum_of_ranks(grid_, here) / core::open_faces_below(grid_, 0);
 }
 
 template <class Value>

@@ -35,7 +35,7 @@ class Ramp {
 /// Share of each face of the bottom (or top), row by row, that lies in a part of it: from and to as of a jet; empty:
 /// all.
 [[nodiscard]] std::vector<double> face_shares(const core::Grid& grid, const std::vector<double>& from,
-                                              const std::vector<double>& to);
+                                              const std::vector<double>& to, bool top = false);
 
 /// The bottom of a column, and its top where the flow is given there too: the same volume, spread evenly. A jet takes
 /// its part of a face's area by overlap, so that what flows in does not depend on the grid; the rest of the face has

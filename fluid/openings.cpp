@@ -36,7 +36,7 @@ void Openings::add_gate(const core::Scene& scene, std::size_t species, Side side
   std::vector<Gate::Part> parts;
   for (const core::Feed& feed : scene.feeds) {
     if (feed.species != scene.species[species].name || (feed.at == core::ColumnEnd::top) != (side == top)) continue;
-    Gate::Part part{Ramp(feed.superficial_velocity, upward), face_shares(grid_, feed.from, feed.to)};
+    Gate::Part part{Ramp(feed.superficial_velocity, upward), face_shares(grid_, feed.from, feed.to, side == top)};
     for (std::size_t f = 0; f < faces; ++f) {
       covered[f] += part.share[f];
       velocity[f] += part.share[f] * upward * feed.velocity;

@@ -11,7 +11,7 @@ namespace {
 constexpr std::size_t slice_count = 50;
 
 double volume_of(const Profile& profile, std::size_t k) {
-  return std::max(profile.solids_fraction(k), 0.0) * profile.slab;
+  return std::max(profile.solids_fraction(k), 0.0) * profile.slab * profile.area(k);
 }
 
 double total_volume(const Profile& profile) {
@@ -31,7 +31,7 @@ double volume_below(const Profile& profile, std::size_t species, double z) {
   double sum = 0;
   for (std::size_t k = 0; k < profile.slabs(); ++k) {
     const double part = std::clamp(z / profile.slab - double(k), 0.0, 1.0);
-    sum += part * std::max(profile.fraction[species][k], 0.0) * profile.slab;
+    sum += part * std::max(profile.fraction[species][k], 0.0) * profile.slab * profile.area(k);
   }
   return sum;
 }
@@ -83,7 +83,7 @@ std::optional<double> half_of_mean(const Profile& profile, double from, double t
   double weighted = 0, volume = 0;
   for (std::size_t k = 0; k < profile.slabs(); ++k) {
     const double bottom = double(k) * profile.slab, top = bottom + profile.slab;
-    const double part = std::max(0.0, std::min(top, *high) - std::max(bottom, *low));
+    const double part = std::max(0.0, std::min(top, *high) - std::max(bottom, *low)) * profile.area(k);
     const double phi = std::max(profile.solids_fraction(k), 0.0);
     weighted += part * phi * phi;
     volume += part * phi;
@@ -126,7 +126,7 @@ std::optional<double> bed_height(const Profile& profile) { return half_of_mean(p
 std::optional<double> dense_height(const Profile& profile) { return half_of_mean(profile, 0.0, 0.50); }
 
 Profile merged(const Profile& profile, std::span<const std::size_t> species) {
-  Profile one{profile.slab, {std::vector<double>(profile.slabs(), 0.0)}, {}};
+  Profile one{profile.slab, {std::vector<double>(profile.slabs(), 0.0)}, {}, profile.areas};
   for (const std::size_t j : species)
     for (std::size_t k = 0; k < one.slabs(); ++k) one.fraction[0][k] += profile.fraction[j][k];
   return one;
@@ -145,8 +145,8 @@ std::optional<double> bed_height_by_pressure(const Profile& profile) {
 std::optional<double> centre(const Profile& profile, std::size_t species) {
   double moment = 0, volume = 0;
   for (std::size_t k = 0; k < profile.slabs(); ++k) {
-    moment += profile.centre(k) * profile.fraction[species][k];
-    volume += profile.fraction[species][k];
+    moment += profile.centre(k) * profile.fraction[species][k] * profile.area(k);
+    volume += profile.fraction[species][k] * profile.area(k);
   }
   return volume > 0 ? std::optional(moment / volume) : std::nullopt;
 }
@@ -201,8 +201,8 @@ std::optional<double> profile_distance(const Profile& profile, const Profile& re
     throw std::invalid_argument("profiles of other slabs");
   double difference = 0, sum = 0;
   for (std::size_t k = 0; k < phi.size(); ++k) {
-    difference += std::abs(phi[k] - phi_ref[k]);
-    sum += phi_ref[k];
+    difference += std::abs(phi[k] - phi_ref[k]) * profile.area(k);
+    sum += phi_ref[k] * profile.area(k);
   }
   return sum > 0 ? std::optional(difference / sum) : std::nullopt;
 }

@@ -51,7 +51,8 @@ Table<Bed> bed_table() {
        "compressible fluid it also carries what the fluid weighs beyond rho_0",
        pressure_drop_of, also_profiles},
       {"buoyant_weight", "Pa",
-       "of the bed in the fluid, over the cross-section: the pressure drop, in the mean, of a fluidised bed",
+       "of the bed in the fluid, over the cross-section: the pressure drop, in the mean, of a fluidised bed; in a "
+       "tapered column of each layer over its own, which the drop exceeds by some per cent",
        [](const Bed& bed) { return bed.buoyant_weight; }},
       {"centre", "m", "sum z phi_j / sum phi_j; in the history of particles the mean height of their centres",
        centre_of, and_drift},

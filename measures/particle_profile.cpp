@@ -86,6 +86,7 @@ void ParticleAdder::add(std::size_t species, double radius, double centre, const
 ParticleProfile particle_profile(const ParticleSums& sums, std::size_t species, const Slabs& slabs) {
   ParticleProfile profile;
   profile.solids.slab = slabs.thickness();
+  profile.solids.areas = slabs.areas;
   const std::vector<double> empty(slabs.count, 0.0);
   profile.solids.fraction = profile.velocity = profile.temperature = std::vector(species, empty);
   for (std::size_t j = 0; j < species; ++j)
@@ -94,7 +95,8 @@ ParticleProfile particle_profile(const ParticleSums& sums, std::size_t species, 
       for (std::size_t q = 0; q < total.size(); ++q)
         total[q] = double(sums.sum[(j * total.size() + q) * slabs.count + k]) * sums.unit[q];
       const auto& [volume, x, y, z, energy] = total;
-      profile.solids.fraction[j][k] = volume / (slabs.area * slabs.thickness());
+      profile.solids.fraction[j][k] =
+          volume / ((slabs.areas.empty() ? slabs.area : slabs.areas[k]) * slabs.thickness());
       if (!(volume > 0)) continue;
       const double mean_squared = speed_squared({x / volume, y / volume, z / volume});
       profile.velocity[j][k] = y / volume;

@@ -25,8 +25,9 @@ struct Slabs {
   double area = 0;    ///< of the column's cross-section, m2
   double height = 0;  ///< of the column, m
   std::size_t count = 0;
-  bool joined = false;     ///< what lies beyond one end of the column is at the other
-  double image_speed = 0;  ///< along x, of the image of a particle one column up: of a sheared box, m/s
+  bool joined = false;             ///< what lies beyond one end of the column is at the other
+  double image_speed = 0;          ///< along x, of the image of a particle one column up: of a sheared box, m/s
+  std::vector<double> areas = {};  ///< of a tapered column the mean in each, m2; else empty
   [[nodiscard]] double thickness() const { return height / double(count); }
 };
 

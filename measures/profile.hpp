@@ -13,9 +13,11 @@ struct Profile {
   double slab = 0;                            ///< thickness, m
   std::vector<std::vector<double>> fraction;  ///< phi_j, [species][slab]
   std::vector<double> pressure;               ///< net p, Pa; may be empty
+  std::vector<double> areas = {};             ///< of the slabs, m2; empty: all alike
 
   [[nodiscard]] std::size_t slabs() const { return fraction.empty() ? 0 : fraction.front().size(); }
   [[nodiscard]] double centre(std::size_t k) const { return (double(k) + 0.5) * slab; }
+  [[nodiscard]] double area(std::size_t k) const { return areas.empty() ? 1 : areas[k]; }
   /// phi = sum phi_j of a slab, negative fractions taken as they are.
   [[nodiscard]] double solids_fraction(std::size_t k) const {
     double sum = 0;

@@ -50,7 +50,7 @@ struct MeanProfile {
 MeanProfile mean_profile(const StoredRun& run, const Rows& rows) {
   const Profile& first = run.beds[rows.begin].profile;
   const std::vector<Rows> groups = groups_of(rows.count());
-  MeanProfile found{{first.slab, first.fraction, {}}, {}};
+  MeanProfile found{{first.slab, first.fraction, {}, first.areas}, {}};
   found.without.assign(groups.size(), found.all);
   for (std::size_t j = 0; j < first.fraction.size(); ++j)
     for (std::size_t k = 0; k < first.slabs(); ++k) {

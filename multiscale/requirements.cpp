@@ -28,6 +28,7 @@ void draw_in(core::Scene& scene, std::size_t axis, int cells) {
   core::Column& column = scene.column;
   const double share = double(cells) / column.cells[axis];
   scene.bed.particles.clear();  // volume_share and static_height give the same amount
+  column.profile.clear();       // a part of the inside of a round column
   column.cells[axis] = cells;
   column.size[axis] *= share;
   if (axis == 1) {
@@ -35,7 +36,7 @@ void draw_in(core::Scene& scene, std::size_t axis, int cells) {
     for (core::Layer& layer : scene.layers) layer.height *= share;
     return;
   }
-  if (column.is_round()) column.shape = core::ColumnShape::box;  // a part of its inside
+  if (column.is_round()) column.shape = core::ColumnShape::box;
   const std::size_t direction = axis == 0 ? 0 : 1;
   const auto draw = [&](auto& part) {
     if (part.from.size() <= direction) return;  // all across
@@ -210,18 +211,32 @@ std::string shape_text(const core::Column& column) {
   if (column.shape == core::ColumnShape::box) return "";
   const double radius = column.around_axis() ? column.size[0] : 0.5 * column.size[0];
   const std::string across = fmt::format("round, {:.4g} mm across", 2e3 * radius);
-  if (column.around_axis())
+  const bool tapered = column.is_tapered();
+  if (column.around_axis() && !tapered)
     return fmt::format("{}: {} rings of {:.3g} mm", across, column.cells[0], 1e3 * radius / column.cells[0]);
   const core::Grid grid = core::grid_of(column, nullptr);
+  const auto layers = std::size_t(tapered ? column.cells[1] : 1), cells = grid.metric->layers.front().volume.size();
   std::size_t open = 0;
   double least = 1;
-  for (const double theta : grid.metric->section.volume) {
-    if (!(theta > 0)) continue;
-    ++open;
-    least = std::min(least, theta);
-  }
-  return fmt::format("{}: {} cells, {} of {} in a layer are open, the smallest {:.2g} of a whole one", across,
-                     column.cells[0], open, grid.metric->section.volume.size(), least);
+  for (std::size_t y = 0; y < layers; ++y)
+    for (std::size_t c = 0; c < cells; ++c) {
+      const double theta = grid.metric->layers[y].volume[c],
+                   whole = column.around_axis() ? double(2 * c + 1) / column.cells[0] : 1.0;
+      if (!(theta > 0)) continue;
+      ++open;
+      least = std::min(least, theta / whole);
+    }
+  if (!tapered)
+    return fmt::format("{}: {} cells, {} of {} in a layer are open, the smallest {:.2g} of a whole one", across,
+                       column.cells[0], open, cells, least);
+  double narrowest = 2 * radius;
+  for (const auto& [height, diameter] : column.profile) narrowest = std::min(narrowest, diameter);
+  return fmt::format(
+      "round, {:.4g} mm across at the bottom, {:.4g} at the top: {:.3g} cells where it is narrowest, {:.4g} l, {} of "
+      "{} "
+      "cells are open, the smallest {:.2g} of a whole one",
+      1e3 * column.profile.front().second, 1e3 * column.profile.back().second, narrowest / grid.spacing[0],
+      1e3 * column.cross_section() * column.even_height(column.size[1]), open, layers * cells, least);
 }
 
 Requirements requirements_of(const core::Scene& scene, core::Timers& timers, std::unique_ptr<tfm::Model>& model) {

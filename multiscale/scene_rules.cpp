@@ -75,8 +75,9 @@ double densest_packing(const core::Scene& scene) { return packing_of_sizes(scene
 /// Share of the whole column that the solids fill.
 double share_of_column(const core::Scene& scene) {
   const core::Bed& bed = scene.bed;
-  const double height = scene.column.size[1];
-  if (bed.particles.size() != scene.species.size()) return bed.static_height * bed.solids_fraction / height;
+  const double height = scene.column.even_height(scene.column.size[1]);
+  if (bed.particles.size() != scene.species.size())
+    return scene.column.even_height(bed.static_height) * bed.solids_fraction / height;
   double volume = 0;
   for (std::size_t j = 0; j < bed.particles.size(); ++j)
     volume += double(bed.particles[j]) * closures::sphere_volume(0.5 * scene.species[j].diameter);

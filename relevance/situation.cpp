@@ -26,7 +26,7 @@ std::vector<double> solids_volumes(const core::Scene& scene) {
   const core::Bed& bed = scene.bed;
   std::vector<double> volume(scene.species.size(), 0.0);
   const auto one = [&](std::size_t j) { return closures::sphere_volume(0.5 * scene.species[j].diameter); };
-  const double whole = bed.static_height * bed.solids_fraction * scene.column.cross_section();
+  const double whole = scene.column.even_height(bed.static_height) * bed.solids_fraction * scene.column.cross_section();
   if (bed.start.kind == core::StartKind::list)
     for (const std::int32_t j : core::read_particle_list(scene).species) volume[std::size_t(j)] += one(std::size_t(j));
   else
@@ -43,11 +43,12 @@ void measure_bed(const core::Scene& scene, Survey& s) {
   s.column_height = size[1];
   const std::vector<double> volume = solids_volumes(scene);
   const double all = std::accumulate(volume.begin(), volume.end(), 0.0);
-  s.mean_fraction = std::min(all / (scene.column.cross_section() * s.column_height), 1.0);
+  const double even_height = scene.column.even_height(s.column_height);
+  s.mean_fraction = std::min(all / (scene.column.cross_section() * even_height), 1.0);
   s.solids_fraction = scene.bed.start_solids_fraction;
   const bool spread = scene.bed.start.kind == core::StartKind::list || scene.bed.start.kind == core::StartKind::random;
   if (spread || !(s.solids_fraction > 0)) s.solids_fraction = std::max(s.mean_fraction, 1e-9);
-  s.height = s.mean_fraction * s.column_height / s.solids_fraction;
+  s.height = scene.column.filled_height(s.mean_fraction * even_height / s.solids_fraction);
   for (const double v : volume) s.share.push_back(all > 0 ? v / all : 1.0 / double(volume.size()));
 }
 

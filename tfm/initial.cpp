@@ -27,12 +27,20 @@ void require_room(double top, const core::Grid& grid) {
         fmt::format("the bed at its start is {:.4g} m high, the column {:.4g} m: enlarge column.size", top, height));
 }
 
+/// Open volume of each layer over the area of the bottom, m.
+std::vector<double> layers_of(const core::Grid& grid) {
+  std::vector<double> layers;
+  for (int y = 0; y < grid.column_cells(1); ++y)
+    layers.push_back(core::open_cells_of_layer(grid, y) / core::open_faces_below(grid, 0) * grid.spacing[1]);
+  return layers;
+}
+
 /// Solids fraction of the cells of a column filled evenly from the bottom; the topmost cell takes the rest.
-std::vector<double> even_column(double solids, double fraction, const core::Grid& grid) {
-  std::vector<double> column(std::size_t(grid.column_cells(1)), 0.0);
-  for (double& phi : column) {
-    phi = std::clamp(solids / grid.spacing[1], 0.0, fraction);
-    solids -= phi * grid.spacing[1];
+std::vector<double> even_column(double solids, double fraction, const std::vector<double>& layers) {
+  std::vector<double> column;
+  for (const double layer : layers) {
+    column.push_back(std::clamp(solids / layer, 0.0, fraction));
+    solids -= column.back() * layer;
   }
   return column;
 }
@@ -64,8 +72,10 @@ std::vector<double> equilibrium_below(const StressEffect& stress, double top, in
 /// A bed at rest of a given volume of solids: the number of cells and the loose topmost one are chosen so
 /// that it comes out exactly.
 std::vector<double> settled_column(double solids, const StressEffect& stress, double weight, const core::Grid& grid) {
+  const std::vector<double> layers = layers_of(grid);
   const auto amount = [&](const std::vector<double>& c) {
-    return std::accumulate(c.begin(), c.end(), 0.0) * grid.spacing[1];
+    return std::inner_product(c.begin(), c.begin() + std::ptrdiff_t(std::min(c.size(), layers.size())), layers.begin(),
+                              0.0);
   };
   int cells = 0;
   while (cells < grid.column_cells(1) && amount(equilibrium_below(stress, 0.0, cells + 1, weight)) <= solids) ++cells;
@@ -91,10 +101,9 @@ void perturb_layer(const core::Grid& grid, int y, double share, std::uint64_t se
                    (std::uint64_t(y) * std::uint64_t(nz) + std::uint64_t(z)) * std::uint64_t(nx) + std::uint64_t(x)) -
            1;
   };
-  const double cells = core::open_cells_of_layer(grid);
-  const auto open = [&](int x, int z) {
-    return grid.metric ? grid.metric->section.volume[grid.metric->section.at(x, z)] : 1.0;
-  };
+  const double cells = core::open_cells_of_layer(grid, y);
+  const core::CrossSection* section = grid.metric ? &grid.metric->layer(y) : nullptr;
+  const auto open = [&](int x, int z) { return section ? section->volume[section->at(x, z)] : 1.0; };
   double mean = 0;
   for (int z = 0; z < nz; ++z)
     for (int x = 0; x < nx; ++x) mean += open(x, z) * random(x, z) / cells;
@@ -115,16 +124,27 @@ std::vector<double> shares_between(const core::Grid& grid, std::size_t axis, dou
   return share;
 }
 
+/// Share of each of the block's layers, by volume, that lies between two heights.
+std::vector<double> shares_of_layers(const core::Grid& grid, const core::Column& column, const core::Extent& extent) {
+  const double h = grid.spacing[1];
+  if (!column.is_tapered()) return shares_between(grid, 1, extent.low / h, extent.high / h);
+  std::vector<double> share;
+  for (int y = grid.before[1]; y < grid.before[1] + grid.cells[1]; ++y) {
+    const auto below = [&](double height) { return column.even_height(std::clamp(height, y * h, (y + 1) * h)); };
+    share.push_back((below(extent.high) - below(extent.low)) / (below((y + 1) * h) - below(y * h)));
+  }
+  return share;
+}
+
 /// Adds a part of the bed to the cells. Those that its faces cut get their share by volume, so that the mass is exact.
-void add_bed_part(const core::Grid& grid, const core::BedPart& part, const core::Extent& extent,
-                  fluid::Interphase& solids) {
-  const double height = extent.high - extent.low;
+void add_bed_part(const core::Grid& grid, const core::Column& column, const core::BedPart& part,
+                  const core::Extent& extent, fluid::Interphase& solids) {
+  const double height = column.even_height(extent.high) - column.even_height(extent.low);
   const auto along = [&](std::size_t axis, double from, double to) { return shares_between(grid, axis, from, to); };
   const auto across = [&](std::size_t axis, std::size_t d) {
     return along(axis, part.from[d] * grid.column_cells(int(axis)), part.to[d] * grid.column_cells(int(axis)));
   };
-  const std::vector<double> x = across(0, 0), z = across(2, 1),
-                            y = along(1, extent.low / grid.spacing[1], extent.high / grid.spacing[1]);
+  const std::vector<double> x = across(0, 0), z = across(2, 1), y = shares_of_layers(grid, column, extent);
   for (int k = 0; k < grid.cells[2]; ++k)
     for (int j = 0; j < grid.cells[1]; ++j)
       for (int i = 0; i < grid.cells[0]; ++i) {
@@ -138,11 +158,11 @@ void add_bed_part(const core::Grid& grid, const core::BedPart& part, const core:
 /// A bed of several parts, each of an even composition.
 void fill_parts(const core::Scene& scene, const core::Grid& grid, fluid::Interphase& solids) {
   const std::vector<core::BedPart> parts = core::start_parts(scene);
-  const std::vector<core::Extent> extents = core::stacked(parts);
+  const std::vector<core::Extent> extents = core::stacked(parts, scene.column);
   require_room(core::top_of(extents), grid);
   for (core::Field& phi : solids.fraction) std::fill(phi.begin(), phi.end(), 0.0);
   for (std::size_t n = 0; n < parts.size(); ++n)
-    if (parts[n].all_solids() > 0) add_bed_part(grid, parts[n], extents[n], solids);
+    if (parts[n].all_solids() > 0) add_bed_part(grid, scene.column, parts[n], extents[n], solids);
 }
 
 /// One layer of the block's cells; nothing if the block has none of it.
@@ -157,8 +177,8 @@ void fill_whole_cells(const core::Scene& scene, const Constants& constants, cons
   const core::Bed& bed = scene.bed;
   const core::Grid& grid = constants.grid;
   if (bed.start.kind == core::StartKind::layered) return fill_parts(scene, grid, solids);
-  const double total = solids_height(bed);
-  require_room(total / bed.start_solids_fraction, grid);
+  const double total = scene.column.even_height(bed.static_height) * bed.solids_fraction;
+  require_room(scene.column.filled_height(total / bed.start_solids_fraction), grid);
   std::vector<double> column;
   if (bed.start.kind == core::StartKind::settled) {
     if (stress == nullptr)
@@ -169,7 +189,7 @@ void fill_whole_cells(const core::Scene& scene, const Constants& constants, cons
     if (excess <= 0) throw core::StartError("bed.start = \"settled\" needs solids heavier than the fluid");
     column = settled_column(total, *stress, excess * constants.gravity * grid.spacing[1], grid);
   } else {
-    column = even_column(total, bed.start_solids_fraction, grid);
+    column = even_column(total, bed.start_solids_fraction, layers_of(grid));
   }
   const bool uneven = bed.start.kind == core::StartKind::mixed && bed.perturbation > 0 &&
                       grid.column_cells(0) * grid.column_cells(2) > 1;

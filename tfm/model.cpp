@@ -91,17 +91,23 @@ void Model::fill_state(const core::Scene& scene) {
   Fields& fields = equations_.fields();
   fill_bed(scene, constants(), effects().solids_stress.get(), fields.solids);
   constants().openings.set_velocities(fields.solids);
+  // In a column whose diameter changes the flow finds its way as after a jump, round solids at rest.
+  const bool tapered = grid.metric && grid.metric->tapered();
+  const double inflow = tapered ? 0 : inlet().mean_velocity(0);
   core::for_each_row(grid, core::owned_faces(grid, 1), [&](Index begin, Index end) {
-    std::fill(fields.fluid.flux[1].begin() + begin, fields.fluid.flux[1].begin() + end, inlet().mean_velocity(0));
+    std::fill(fields.fluid.flux[1].begin() + begin, fields.fluid.flux[1].begin() + end, inflow);
   });
   core::Field even = core::make_field(grid);  // what flows in before the jets have their own velocities
-  fluid::for_each_boundary_row(grid, 1, 0, [&](Index begin, Index end) {
-    std::fill(even.begin() + begin, even.begin() + end, inlet().mean_velocity(0));
-  });
+  fluid::for_each_boundary_row(
+      grid, 1, 0, [&](Index begin, Index end) { std::fill(even.begin() + begin, even.begin() + end, inflow); });
   y_.resize(layout_.size());
   dydt_.assign(layout_.size(), 0.0);
   layout_.pack(fields.solids, fields.fluid, y_);
   project_jump(equations_, layout_, velocity_scale_, time_, even, y_);
+  if (!tapered) return;
+  for (core::FaceField& velocity : fields.solids.velocity)
+    for (core::Field& u : velocity) std::fill(u.begin(), u.end(), 0.0);
+  layout_.pack(fields.solids, fields.fluid, y_);
 }
 
 template <class Made, class... Args>

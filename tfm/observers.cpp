@@ -6,8 +6,10 @@
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <numeric>
 
 #include "core/numerics/blocks.hpp"
+#include "core/numerics/metric.hpp"
 #include "core/numerics/ranks.hpp"
 #include "core/output/rows.hpp"
 #include "tfm/packing_limit.hpp"
@@ -24,11 +26,21 @@ std::vector<double> slab_centres(const core::Grid& grid) {
   return y;
 }
 
+/// Of the layers of a tapered column, m2; empty: they are alike.
+std::vector<double> areas_of_layers(const core::Grid& grid) {
+  std::vector<double> areas;
+  if (grid.metric && grid.metric->tapered())
+    for (int y = 0; y < grid.column_cells(1); ++y)
+      areas.push_back(core::open_cells_of_layer(grid, y) * grid.spacing[0] * grid.spacing[2]);
+  return areas;
+}
+
 /// Whether there are granular temperatures to write: unknowns, or found by a local balance.
 bool knows_temperature(const Model& model) { return !model.fields().solids.temperature.empty(); }
 
 std::vector<std::string> profile_names(const Constants& constants, bool temperature) {
   std::vector<std::string> names{"voidage", "p"};
+  if (!areas_of_layers(constants.grid).empty()) names.emplace_back(core::area_of_slabs);
   for (const std::string& name : constants.name) {
     names.push_back("phi_" + name);
     names.push_back("u_" + name);
@@ -93,6 +105,7 @@ measures::Profile part_of_profile(const Model& model) {
   const core::Grid& grid = model.constants().grid;
   measures::Profile profile;
   profile.slab = grid.spacing[1];
+  profile.areas = areas_of_layers(grid);
   for (const core::Field& phi : model.fields().solids.fraction)
     profile.fraction.push_back(measures::part_of_lateral_mean(grid, phi));
   profile.pressure = measures::part_of_lateral_mean(grid, model.fields().fluid.pressure);
@@ -164,8 +177,13 @@ void Observers::write_history(double time) {
   const double area = constants.grid.spacing[0] * constants.grid.spacing[2] * core::open_cells_of_layer(constants.grid);
   for (std::size_t j = 0; j < constants.species(); ++j) {
     bed.mass.push_back(watched.volume[j] * constants.density[j]);
-    bed.buoyant_weight += bed.mass[j] * (1 - constants.fluid.density / constants.density[j]) * constants.gravity *
-                          -constants.down[1] / area;
+    const std::vector<double>& phi = bed.profile.fraction[j];
+    // A sloping wall bears what the solids above it weigh, or presses from above.
+    const double carried = bed.profile.areas.empty() ? bed.mass[j]
+                                                     : std::accumulate(phi.begin(), phi.end(), 0.0) * bed.profile.slab *
+                                                           constants.density[j] * area;
+    bed.buoyant_weight +=
+        carried * (1 - constants.fluid.density / constants.density[j]) * constants.gravity * -constants.down[1] / area;
   }
   force_balance_ = bed.buoyant_weight != 0 ? measures::pressure_drop(bed.profile) / bed.buoyant_weight : 0;
   bed_height_ = measures::bed_height(bed.profile);
@@ -209,6 +227,7 @@ void Observers::write_fields(double time) {
   };
   add_mean(fields.fluid.voidage);
   add_mean(fields.fluid.pressure);
+  if (const std::vector<double> areas = areas_of_layers(grid); !areas.empty()) rows.push_back(areas);
   std::vector<core::FaceField> velocities{core::cell_means(grid, fields.fluid.velocity)};
   for (const core::FaceField& u : fields.solids.velocity) velocities.push_back(core::cell_means(grid, u));
   std::vector<core::Field> temperatures;

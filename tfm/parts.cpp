@@ -33,7 +33,7 @@ void start_from_the_top(const core::Grid& grid, core::Field& pressure) {
       for (Index c = begin; c < end; ++c) layer.push_back(metric.volume(c) * pressure[std::size_t(c)]);
     });
   });
-  const double mean = core::sum_of_ranks(grid, layer) / core::open_cells_of_layer(grid);
+  const double mean = core::sum_of_ranks(grid, layer) / core::open_cells_of_layer(grid, grid.column_cells(1) - 1);
   for (double& p : pressure) p -= mean;
 }
 

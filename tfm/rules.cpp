@@ -36,7 +36,7 @@ Broken wall_without_viscosity(const Scene& scene) {
 Broken solids_held_by_a_round_wall(const Scene& scene) {
   const core::ColumnShape shape = scene.column.shape;
   const core::SolidsWall wall = scene.tfm.solids_wall;
-  const bool follows = scene.column.around_axis() && wall == core::SolidsWall::no_slip;
+  const bool follows = scene.column.around_axis() && !scene.column.is_tapered() && wall == core::SolidsWall::no_slip;
   if (shape == core::ColumnShape::box || wall == core::SolidsWall::free_slip || follows) return {};
   return Broken({std::string(core::name_of(shape)), std::string(core::name_of(wall))});
 }
@@ -62,7 +62,7 @@ Broken outlet_fed_shut(const Scene& scene) {
   for (std::size_t n = 0; n < scene.feeds.size(); ++n) {
     const core::Feed& feed = scene.feeds[n];
     if (feed.at != core::ColumnEnd::top) continue;
-    const std::vector<double> share = fluid::face_shares(grid, feed.from, feed.to);
+    const std::vector<double> share = fluid::face_shares(grid, feed.from, feed.to, true);
     std::vector<double>& sum = fed.try_emplace(feed.species, share.size(), 0.0).first->second;
     const bool was_shut = std::find(sum.begin(), sum.end(), 0.0) == sum.end();
     std::transform(sum.begin(), sum.end(), share.begin(), sum.begin(), std::plus());
@@ -75,11 +75,15 @@ Broken outlet_fed_shut(const Scene& scene) {
 /// Feeds and jets of which nothing can come in, since all their cells are cut off by a round wall.
 Broken on_closed_cells(const Scene& scene) {
   Broken broken;
-  if (!scene.column.is_round() || scene.column.closed) return broken;
+  if ((!scene.column.is_round() && !scene.column.is_tapered()) || scene.column.closed) return broken;
   const core::Grid grid = core::grid_of(scene.column, nullptr);
+  const auto at_top = [](const auto& part) {
+    if constexpr (requires { part.at; }) return part.at == core::FeedEnd::top;
+    return false;
+  };
   const auto see = [&](const auto& parts, const char* what) {
     for (std::size_t n = 0; n < parts.size(); ++n) {
-      const std::vector<double> share = fluid::face_shares(grid, parts[n].from, parts[n].to);
+      const std::vector<double> share = fluid::face_shares(grid, parts[n].from, parts[n].to, at_top(parts[n]));
       if (std::all_of(share.begin(), share.end(), [](double one) { return one == 0; }))
         broken.add({what, std::to_string(n + 1)});
     }
@@ -129,7 +133,7 @@ std::vector<core::Rule> key_rules() {
       {{"column.shape", "column.size", "column.cells", "feed.", "jet."},
        "{} number {} lies on cells that the round wall cuts off: move it inwards, or take smaller cells",
        on_closed_cells},
-      {{"column.shape", "tfm.solids_wall"},
+      {{"column.shape", "column.profile", "tfm.solids_wall"},
        "column.shape = \"{}\" and tfm.solids_wall = \"{}\" cannot be combined yet: the solids slip freely along round "
        "walls",
        solids_held_by_a_round_wall},

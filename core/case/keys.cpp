@@ -91,7 +91,8 @@ std::string kind_name(const Key& key) {
                              "list of counts",
                              "list of texts",
                              "number or table in time",
-                             "table of length, m, and number"};
+                             "table of length, m, and number",
+                             "table of height, m, and length"};
   const std::string kind = names[std::size_t(key.kind)];
   return key.dimension == dimension::none ? kind : kind + ", " + unit_name(key.dimension);
 }

@@ -20,7 +20,7 @@ using Points = std::vector<std::pair<double, double>>;
 using Value = std::variant<std::monostate, double, std::int64_t, bool, std::string, std::vector<double>,
                            std::vector<std::int64_t>, std::vector<std::string>, Points>;
 
-enum class Kind { number, count, truth, text, word_or_number, numbers, counts, texts, points, sieves };
+enum class Kind { number, count, truth, text, word_or_number, numbers, counts, texts, points, sieves, heights };
 
 struct Range {
   double least = -std::numeric_limits<double>::infinity(), most = std::numeric_limits<double>::infinity();

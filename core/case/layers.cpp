@@ -29,9 +29,17 @@ double settled_fraction_of(const Scene& scene, const Layer& layer) {
   return layer.solids_fraction.value_or(scene.bed.solids_fraction);
 }
 
-std::vector<double> solids_of(const Scene& scene, const Layer& layer) {
+/// Height of a layer in an even column: in a tapered one layers are as wide as it is.
+double even_height_of(const Scene& scene, std::size_t n) {
+  double low = 0;
+  for (std::size_t m = 0; m < n && scene.column.is_tapered(); ++m) low += scene.layers[m].height;
+  return scene.column.even_height(low + scene.layers[n].height) - scene.column.even_height(low);
+}
+
+std::vector<double> solids_of(const Scene& scene, std::size_t n) {
+  const Layer& layer = scene.layers[n];
   std::vector<double> solids = layer.volume_share;
-  for (double& one : solids) one *= layer.height * settled_fraction_of(scene, layer);
+  for (double& one : solids) one *= even_height_of(scene, n) * settled_fraction_of(scene, layer);
   return solids;
 }
 
@@ -41,7 +49,7 @@ std::vector<double> solids_of_bed(const Scene& scene) {
   std::vector<double> solids;
   for (std::size_t j = 0; j < scene.species.size(); ++j)
     solids.push_back(bed.particles.empty()
-                         ? bed.volume_share[j] * bed.static_height * bed.solids_fraction
+                         ? bed.volume_share[j] * scene.column.even_height(bed.static_height) * bed.solids_fraction
                          : volume_of(bed.particles[j], scene.species[j]) / scene.column.cross_section());
   return solids;
 }
@@ -60,9 +68,10 @@ std::vector<std::vector<std::size_t>> groups_of(const Scene& scene) {
 
 std::vector<BedPart> parts_of_layers(const Scene& scene) {
   std::vector<BedPart> parts;
-  for (const Layer& layer : scene.layers) {
+  for (std::size_t n = 0; n < scene.layers.size(); ++n) {
+    const Layer& layer = scene.layers[n];
     parts.push_back(footprint(scene, layer));
-    parts.back().solids = solids_of(scene, layer);
+    parts.back().solids = solids_of(scene, n);
     const double settled = settled_fraction_of(scene, layer);
     parts.back().solids_fraction = std::min(settled, scene.bed.start_fraction.value_or(settled));
   }
@@ -111,10 +120,12 @@ std::vector<Extent> stacked(const std::vector<BedPart>& parts, const std::vector
   return extents;
 }
 
-std::vector<Extent> stacked(const std::vector<BedPart>& parts) {
+std::vector<Extent> stacked(const std::vector<BedPart>& parts, const Column& column) {
   std::vector<double> height;
   for (const BedPart& part : parts) height.push_back(part.all_solids() / part.solids_fraction);
-  return stacked(parts, height);
+  std::vector<Extent> extents = stacked(parts, height);
+  for (Extent& one : extents) one = {column.filled_height(one.low), column.filled_height(one.high)};
+  return extents;
 }
 
 double top_of(const std::vector<Extent>& extents) {
@@ -135,9 +146,9 @@ double supported_share(const std::vector<BedPart>& parts, const std::vector<Exte
 LayerTotals totals_of_layers(const Scene& scene) {
   LayerTotals totals;
   totals.share.assign(scene.species.size(), 0.0);
-  for (const Layer& layer : scene.layers) {
-    const std::vector<double> solids = solids_of(scene, layer);
-    const double area = footprint(scene, layer).area();
+  for (std::size_t n = 0; n < scene.layers.size(); ++n) {
+    const std::vector<double> solids = solids_of(scene, n);
+    const double area = footprint(scene, scene.layers[n]).area();
     for (std::size_t j = 0; j < totals.share.size(); ++j) totals.share[j] += area * solids[j];
   }
   totals.solids = std::accumulate(totals.share.begin(), totals.share.end(), 0.0);
@@ -158,7 +169,7 @@ void fill_layers(Scene& scene) {
   if (!(bed.solids_fraction > 0)) bed.solids_fraction = densest;
   const LayerTotals totals = totals_of_layers(scene);
   if (bed.volume_share.empty()) bed.volume_share = totals.share;
-  if (!(bed.static_height > 0)) bed.static_height = totals.solids / bed.solids_fraction;
+  if (!(bed.static_height > 0)) bed.static_height = scene.column.filled_height(totals.solids / bed.solids_fraction);
 }
 
 }  // namespace polybed::core

@@ -32,8 +32,8 @@ struct Extent {
 /// Where parts of these heights, m, lie: each on the highest of those before it that it lies over.
 [[nodiscard]] std::vector<Extent> stacked(const std::vector<BedPart>& parts, const std::vector<double>& height);
 
-/// The same, with the height of each part at its solids fraction at the start.
-[[nodiscard]] std::vector<Extent> stacked(const std::vector<BedPart>& parts);
+/// The same, with the height of each part at its solids fraction at the start; in a tapered column as wide as it is.
+[[nodiscard]] std::vector<Extent> stacked(const std::vector<BedPart>& parts, const Column& column);
 
 /// Height of the highest part, m; 0 without parts.
 [[nodiscard]] double top_of(const std::vector<Extent>& extents);

@@ -153,8 +153,10 @@ class ListReader {
       if (!(position[d] >= 0 && position[d] <= scene_.column.size[d]))
         add(column, fmt::format("{} = {:g} m: the centre lies outside the column, 0 to {:g} m", axis[d], position[d],
                                 scene_.column.size[d]));
-    const double radius = 0.5 * scene_.column.size[0], away = std::hypot(position[0] - radius, position[2] - radius);
-    if (scene_.column.is_round() && away > radius)
+    const Column& shape = scene_.column;
+    const double centre = 0.5 * shape.size[0], away = std::hypot(position[0] - centre, position[2] - centre),
+                 radius = shape.is_tapered() ? 0.5 * shape.diameter_at(position[1]) : centre;
+    if (shape.is_round() && away > radius)
       add(column, fmt::format("x = {:g} m, z = {:g} m: the centre lies outside the round column, {:g} m from its axis, "
                               "whose radius is {:g} m",
                               position[0], position[2], away, radius));

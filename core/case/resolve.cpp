@@ -64,7 +64,7 @@ void fill_amount(Scene& scene) {
     total += bed.volume_share[j];
   }
   for (double& x : bed.volume_share) x /= total;
-  bed.static_height = total / (area * bed.solids_fraction);
+  bed.static_height = scene.column.filled_height(total / (area * bed.solids_fraction));
 }
 
 /// What of the bed follows from [[layer]], where there is any.

@@ -166,8 +166,10 @@ Broken start_denser_than_settled(const Scene& scene) {
 Broken bed_above_the_column(const Scene& scene) {
   const Bed& bed = scene.bed;
   if (is_list(scene)) return {};
-  const double height = scene.layers.empty() ? bed.static_height * bed.solids_fraction / bed.start_solids_fraction
-                                             : top_of(stacked(start_parts(scene)));
+  const Column& column = scene.column;
+  const double height = scene.layers.empty() ? column.filled_height(column.even_height(bed.static_height) *
+                                                                    bed.solids_fraction / bed.start_solids_fraction)
+                                             : top_of(stacked(start_parts(scene), column));
   if (!(height > scene.column.size[1] * (1 + 1e-12))) return {};
   return Broken({fmt::format("{:.4g}", height), fmt::format("{:.4g}", scene.column.size[1])});
 }

@@ -19,6 +19,12 @@ bool has_round_wall(const Scene& scene) {
 /// a round one is at least twice as wide as particles.
 bool too_narrow(double diameter, const Species& species) { return 2 * species.diameter > diameter * (1 + 1e-12); }
 
+double narrowest_of(const Column& column) {
+  double narrowest = column.profile.front().second;
+  for (const auto& [height, diameter] : column.profile) narrowest = std::min(narrowest, diameter);
+  return narrowest;
+}
+
 Broken not_round(const Scene& scene) {
   const std::vector<double>& size = scene.column.given_size;
   if (!scene.column.is_round() || (size.size() != 2 && size.size() != 3)) return {};
@@ -28,12 +34,54 @@ Broken not_round(const Scene& scene) {
 Broken column_too_narrow(const Scene& scene) {
   Broken broken;
   if (!scene.column.is_round() || scene.column.given_size.empty()) return broken;
-  const double diameter = scene.column.given_size[0];
+  const double diameter = scene.column.is_tapered() ? narrowest_of(scene.column) : scene.column.given_size[0];
   for (std::size_t j = 0; j < scene.species.size(); ++j)
     if (too_narrow(diameter, scene.species[j]))
       broken.add({fmt::format("{:.4g}", scene.species[j].diameter), fmt::format("{:.4g}", diameter)},
                  entry_of(scene, scene.species, j));
   return broken;
+}
+
+bool is_uneven(double a, double b) { return std::abs(a - b) > 1e-9 * std::abs(b); }
+
+Broken profile_unsteady(const Scene& scene) {
+  const auto& profile = scene.column.profile;
+  for (std::size_t n = 2; n < profile.size(); ++n)
+    if (profile[n - 2].first == profile[n].first) return Broken({fmt::format("{:.4g}", profile[n].first)});
+  return {};
+}
+
+/// The first and the last height.
+Broken profile_of_another_height(const Scene& scene) {
+  const Column& column = scene.column;
+  if (!column.is_tapered() || column.given_size.empty()) return {};
+  const double low = column.profile.front().first, high = column.profile.back().first,
+               height = column.given_size.back();
+  if (low == 0 && !is_uneven(high, height)) return {};
+  return Broken({fmt::format("{:.4g}", low), fmt::format("{:.4g}", high), fmt::format("{:.4g}", height)});
+}
+
+Broken profile_of_another_width(const Scene& scene) {
+  const Column& column = scene.column;
+  if (!column.is_tapered() || column.given_size.empty()) return {};
+  double widest = 0;
+  for (const auto& [height, diameter] : column.profile) widest = std::max(widest, diameter);
+  const double width = (column.around_axis() ? 2 : 1) * column.given_size[0];
+  if (!is_uneven(widest, width)) return {};
+  return Broken({fmt::format("{:.6g}", widest), fmt::format("{:.6g}", width)});
+}
+
+/// The cells in the middle have to be open all the way up.
+Broken profile_too_narrow(const Scene& scene) {
+  constexpr double least = 4;
+  const Column& column = scene.column;
+  if (!column.is_tapered()) return {};
+  double cell = column.size[0] / column.cells[0];
+  if (column.is_round()) cell = std::max(cell, column.size[2] / column.cells[2]);
+  const double cells = narrowest_of(column) / cell;
+  if (cells > least * (1 - 1e-9)) return {};
+  return Broken(
+      {fmt::format("{:.4g}", narrowest_of(column)), fmt::format("{:.2g}", cells), fmt::format("{:g}", least)});
 }
 
 Broken layers_with_corners(const Scene& scene) {
@@ -43,27 +91,28 @@ Broken layers_with_corners(const Scene& scene) {
   return broken;
 }
 
-/// Whether a corner, x and z, lies within a round column.
-bool in_circle(const Column& column, double x, double z) {
-  const double radius = 0.5 * column.size[0];
-  return std::hypot(x - radius, z - radius) <= radius * (1 + 1e-12);
+double diameter_at(const Column& column, FeedEnd end) {
+  if (!column.is_tapered()) return column.size[0];
+  return (end == FeedEnd::top ? column.profile.back() : column.profile.front()).second;
 }
 
 /// Whether a part of the cross-section, a feed's or a jet's, has a corner beyond a round column.
 template <class Part>
-bool is_beyond_the_circle(const Scene& scene, const Part& part) {
-  if (!scene.column.is_round() || part.from.size() != 2 || part.to.size() != 2) return false;
+bool is_beyond_the_circle(const Column& column, const Part& part, FeedEnd end) {
+  const double within = 0.5 * diameter_at(column, end) * (1 + 1e-12), centre = 0.5 * column.size[0];
+  if (column.around_axis()) return column.is_tapered() && !part.to.empty() && part.to[0] > within;
+  if (!column.is_round() || part.from.size() != 2 || part.to.size() != 2) return false;
   for (const double x : {part.from[0], part.to[0]})
     for (const double z : {part.from[1], part.to[1]})
-      if (!in_circle(scene.column, x, z)) return true;
+      if (std::hypot(x - centre, z - centre) > within) return true;
   return false;
 }
 
 Broken feeds_beyond_the_circle(const Scene& scene) {
   Broken broken;
   for (std::size_t n = 0; n < scene.feeds.size(); ++n)
-    if (is_beyond_the_circle(scene, scene.feeds[n]))
-      broken.add({scene.feeds[n].species, fmt::format("{:.4g}", scene.column.size[0])},
+    if (const Feed& feed = scene.feeds[n]; is_beyond_the_circle(scene.column, feed, feed.at))
+      broken.add({feed.species, fmt::format("{:.4g}", diameter_at(scene.column, feed.at))},
                  entry_of(scene, scene.feeds, n));
   return broken;
 }
@@ -71,8 +120,8 @@ Broken feeds_beyond_the_circle(const Scene& scene) {
 Broken jets_beyond_the_circle(const Scene& scene) {
   Broken broken;
   for (std::size_t n = 0; n < scene.jets.size(); ++n)
-    if (is_beyond_the_circle(scene, scene.jets[n]))
-      broken.add({std::to_string(n + 1), fmt::format("{:.4g}", scene.column.size[0])}, n);
+    if (is_beyond_the_circle(scene.column, scene.jets[n], FeedEnd::bottom))
+      broken.add({std::to_string(n + 1), fmt::format("{:.4g}", diameter_at(scene.column, FeedEnd::bottom))}, n);
   return broken;
 }
 
@@ -83,6 +132,34 @@ Broken long_cells_in_a_cylinder(const Scene& scene) {
   const double ratio = double(column.cells[0]) / column.cells[2];
   if (!column.is_round() || column.dimensions != 3 || (ratio <= most && ratio * most >= 1)) return {};
   return Broken({std::to_string(column.cells[0]), std::to_string(column.cells[2])});
+}
+
+std::vector<Rule> profile_rules() {
+  return {
+      {{"column.profile", "column.shape"},
+       "column.profile is for round columns: use column.shape = \"axisymmetric\" or \"cylinder\"",
+       [](const Scene& scene) {
+         return broken_if(scene.column.is_tapered() && scene.column.shape == ColumnShape::box);
+       },
+       true},
+      {{"column.profile", "column.size"},
+       "column.profile goes from {} to {} m: from 0 to the height of the column, {} m",
+       profile_of_another_height,
+       true},
+      {{"column.profile"}, "column.profile: three pairs at {} m; a step has two", profile_unsteady, true},
+      {{"column.profile", "column.size", "column.shape"},
+       "column.profile is {} m in diameter where it is widest, column.size {} m: make them equal",
+       profile_of_another_width,
+       true},
+      {{"column.profile", "bed.start"},
+       "column.profile and bed.start = \"random\" cannot be combined yet: particles would be placed beside the narrow "
+       "part; use \"mixed\"",
+       [](const Scene& scene) {
+         return broken_if(scene.column.is_tapered() && scene.bed.start.kind == StartKind::random);
+       }},
+      {{"column.profile", "column.cells", "column.size"},
+       "column.profile: {} m at its narrowest are {} cells, at least {}: take more cells in column.cells",
+       profile_too_narrow}};
 }
 
 std::vector<Rule> round_column_rules() {
@@ -120,11 +197,11 @@ std::vector<Rule> round_column_rules() {
       {{"layer.from", "column.shape"},
        "[[layer]] number {} has corners, a round column has none: leave layer.from and layer.to out",
        layers_with_corners},
-      {{"feed.from", "feed.to", "feed.species", "column.size", "column.shape"},
+      {{"feed.from", "feed.to", "feed.species", "column.size", "column.shape", "column.profile"},
        "[[feed]] of {} reaches beyond the round column, {} m in diameter: move feed.from and feed.to inwards, or "
        "leave them out",
        feeds_beyond_the_circle},
-      {{"jet.from", "jet.to", "column.size", "column.shape"},
+      {{"jet.from", "jet.to", "column.size", "column.shape", "column.profile"},
        "[[jet]] number {} reaches beyond the round column, {} m in diameter: move jet.from and jet.to inwards",
        jets_beyond_the_circle},
       {{"column.cells", "column.size", "column.shape"},
@@ -244,7 +321,7 @@ std::vector<Rule> rules_of_any_wall() {
 
 std::vector<Rule> wall_rules() {
   std::vector<Rule> rules;
-  for (const auto& part : {round_column_rules(), rules_of_each_wall(), rules_of_any_wall()})
+  for (const auto& part : {round_column_rules(), profile_rules(), rules_of_each_wall(), rules_of_any_wall()})
     rules.insert(rules.end(), part.begin(), part.end());
   return rules;
 }

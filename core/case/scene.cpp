@@ -1,12 +1,79 @@
 #include "core/case/scene.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace polybed::core {
 
+namespace {
+
+double disc(double diameter) { return std::numbers::pi / 4 * diameter * diameter; }
+
+/// Volume of a frustum from the first row of a part of a profile up to a share of the part, m3.
+double frustum(const std::pair<double, double>& low, const std::pair<double, double>& high, double share) {
+  const double end = low.second + share * (high.second - low.second);
+  return share * (high.first - low.first) * (disc(low.second) + disc(end) + disc(0.5 * (low.second + end)) * 4) / 6;
+}
+
+}  // namespace
+
 double Column::cross_section() const {
+  if (is_tapered()) return disc(profile.front().second);
   const double square = size[0] * size[2];
   return is_round() ? std::numbers::pi / 4 * square : square;
+}
+
+double Column::even_height(double height) const {
+  if (!is_tapered()) return height;
+  double volume = std::max(height - profile.back().first, 0.0) * disc(profile.back().second);
+  for (std::size_t n = 1; n < profile.size(); ++n) {
+    const auto &low = profile[n - 1], &high = profile[n];
+    if (!(low.first < high.first) || height <= low.first) continue;
+    volume += frustum(low, high, std::min((height - low.first) / (high.first - low.first), 1.0));
+  }
+  return volume / cross_section();
+}
+
+double Column::diameter_at(double height) const {
+  double least = height < profile.front().first ? profile.front().second : std::numeric_limits<double>::infinity();
+  for (std::size_t n = 1; n < profile.size(); ++n) {
+    const auto& [low, below] = profile[n - 1];
+    const auto& [high, above] = profile[n];
+    if (low < high && height >= low && height <= high)
+      least = std::min(least, below + (above - below) * (height - low) / (high - low));
+  }
+  return std::isfinite(least) ? least : profile.back().second;
+}
+
+double Column::area_between(double low, double high) const {
+  if (!is_tapered()) return cross_section();
+  return cross_section() * (even_height(high) - even_height(low)) / (high - low);
+}
+
+double Column::filled_height(double even) const {
+  if (!is_tapered()) return even;
+  double least = cross_section();
+  for (const auto& [height, diameter] : profile) least = std::min(least, disc(diameter));
+  double below = 0, above = even * cross_section() / least;
+  for (int n = 0; n < 100; ++n) {
+    const double middle = 0.5 * (below + above);
+    (even_height(middle) < even ? below : above) = middle;
+  }
+  return above;
+}
+
+std::vector<InnerWall> walls_of_taper(const Column& column) {
+  std::vector<InnerWall> walls;
+  for (std::size_t n = 1; n < column.profile.size(); ++n) {
+    const auto& [low, below] = column.profile[n - 1];
+    const auto& [high, above] = column.profile[n];
+    const bool widest = std::min(below, above) >= column.size[0] * (1 - 1e-9);
+    if (!widest && column.profile[n - 1] != column.profile[n])
+      walls.push_back({{below, low}, {above, high}, WallShape::cone});
+  }
+  return walls;
 }
 
 Substance Fluid::substance() const {

@@ -19,10 +19,12 @@ struct Column {
   ColumnShape shape = ColumnShape::box;   ///< a cylinder is upright; its diameter is the width and the depth
   std::vector<double> given_size;         ///< as the case gives it: width, height or width, depth, height, m
   std::vector<std::int64_t> given_cells;  ///< likewise
-  std::optional<double> depth;            ///< of a 2-D column, m; else twice the largest diameter and skin
-  int dimensions = 2;                     ///< follows, as the next two do
-  std::array<double, 3> size{};           ///< width, height, depth, m (axes x, y, z; 2-D: depth is `depth`)
-  std::array<int, 3> cells{1, 1, 1};      ///< along x, y, z; 1 along z in 2-D
+  /// Height and diameter of a round column, m, upward, linear between; two at one height are a step. Empty: even.
+  std::vector<std::pair<double, double>> profile;
+  std::optional<double> depth;        ///< of a 2-D column, m; else twice the largest diameter and skin
+  int dimensions = 2;                 ///< follows, as the next two do
+  std::array<double, 3> size{};       ///< width, height, depth, m (axes x, y, z; 2-D: depth is `depth`)
+  std::array<int, 3> cells{1, 1, 1};  ///< along x, y, z; 1 along z in 2-D
   Boundary sides = Boundary::wall;
   Boundary ends = Boundary::wall;         ///< bottom and top; periodic for the DEM only
   double gravity = 9.81;                  ///< m/s2, along `down`
@@ -34,8 +36,18 @@ struct Column {
 
   [[nodiscard]] bool is_round() const { return shape == ColumnShape::cylinder; }
   [[nodiscard]] bool around_axis() const { return shape == ColumnShape::axisymmetric; }
-  /// Area of its cross-section, m2.
+  [[nodiscard]] bool is_tapered() const { return !profile.empty(); }
+  /// Area of its cross-section, at the bottom, m2.
   [[nodiscard]] double cross_section() const;
+  /// Volume below a height over cross_section(), m: the height that it would have in an even column. Above the top a
+  /// tapered column is as wide as there.
+  [[nodiscard]] double even_height(double height) const;
+  /// The inverse.
+  [[nodiscard]] double filled_height(double even) const;
+  /// Of a tapered one; the smaller at a step.
+  [[nodiscard]] double diameter_at(double height) const;
+  /// Mean over the heights between two of a round column, m2.
+  [[nodiscard]] double area_between(double low, double high) const;
 };
 
 /// A fluid whose properties are known by its name, another, or none.
@@ -140,6 +152,9 @@ struct InnerWall {
 
   [[nodiscard]] bool is_round() const { return shape != WallShape::flat; }
 };
+
+/// The walls of a round column where it is narrower than at its widest, as cones.
+[[nodiscard]] std::vector<InnerWall> walls_of_taper(const Column& column);
 
 /// Solids of one species that are fed through the bottom or the top, everywhere or in a part of it.
 struct Feed {

@@ -90,7 +90,8 @@ enum class Mark {
   required,
   given,     ///< required unless another key is given: its initialiser is no default
   replaced,  ///< not in the resolved case
-  by_size    ///< pairs of a diameter and a value, not of a time and a value
+  by_size,   ///< pairs of a diameter and a value, not of a time and a value
+  by_height  ///< pairs of a height and a value
 };
 
 inline Help help(std::string_view text) { return {text}; }
@@ -123,6 +124,7 @@ struct KeyOf {
     key.replaced |= fact == Mark::replaced;
     no_default |= fact == Mark::required || fact == Mark::given;
     if (fact == Mark::by_size) key.kind = Kind::sieves;
+    if (fact == Mark::by_height) key.kind = Kind::heights;
   }
 };
 

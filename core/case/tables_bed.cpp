@@ -29,6 +29,10 @@ Table column_table() {
               help("width, height; three numbers make it 3-D: width, depth, height")),
           key(&Column::given_cells, "cells", range(1, 1e6), Mark::required,
               help("number of cells along each direction of size")),
+          key(&Column::profile, "profile", dimension::length, above(0, 1e3), Mark::by_height,
+              help("diameter of a round column over its height, linear between the pairs [height, diameter], from 0 to "
+                   "the height of the column; two pairs at one height are a step; size has the largest diameter, or "
+                   "half of it")),
           key(&Column::depth, "depth", dimension::length, above(0, 1e3),
               help("of a 2-D column; default: twice the largest diameter and twice dem.skin")),
           key(&Column::sides, "sides",

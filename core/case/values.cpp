@@ -86,6 +86,8 @@ Value CaseValues::read(const Key& key, const toml::node& node) {
       return value_or_none(points(key, node));
     case Kind::sieves:
       return value_or_none(sieves(key, node));
+    case Kind::heights:
+      return value_or_none(points(key, node));
   }
   return {};
 }
@@ -187,11 +189,29 @@ std::optional<std::string> CaseValues::text(const Key& key, const toml::node& no
   return value;
 }
 
+namespace {
+
+/// What the first number of a pair is.
+struct First {
+  const char *pair, *order;
+  Dimension dimension;
+  Range range;
+};
+
+First first_of(Kind kind) {
+  if (kind == Kind::sieves) return {"[opening, share]", "openings must rise", dimension::length, {1e-8, 1}};
+  if (kind == Kind::heights) return {"[height, diameter]", "heights must not fall", dimension::length, {0, 1e3}};
+  return {"[time, velocity]", "times must not fall", dimension::time, {0, 1e9}};
+}
+
+}  // namespace
+
 std::optional<Points> CaseValues::points(const Key& key, const toml::node& node) {
   const toml::array* rows = node.as_array();
   const bool by_size = key.kind == Kind::sieves;
-  if (rows == nullptr && by_size) {
-    expected(key, node, "a table of pairs [opening, share]");
+  const First of_pair = first_of(key.kind);
+  if (rows == nullptr && key.kind != Kind::points) {
+    expected(key, node, fmt::format("a table of pairs {}", of_pair.pair));
     return std::nullopt;
   }
   if (rows == nullptr) {
@@ -199,9 +219,9 @@ std::optional<Points> CaseValues::points(const Key& key, const toml::node& node)
     return value ? std::optional(Points{{0.0, *value}}) : std::nullopt;
   }
   Key first = key;
-  first.dimension = by_size ? dimension::length : dimension::time;
-  first.range = by_size ? Range{1e-8, 1} : Range{0, 1e9};
-  const std::string pair_name = by_size ? "a pair [opening, share]" : "a pair [time, velocity]";
+  first.dimension = of_pair.dimension;
+  first.range = of_pair.range;
+  const std::string pair_name = fmt::format("a pair {}", of_pair.pair);
   Points table;
   for (const toml::node& row : *rows) {
     const toml::array* pair = row.as_array();
@@ -213,7 +233,7 @@ std::optional<Points> CaseValues::points(const Key& key, const toml::node& node)
     if (!t || !v) return std::nullopt;
     const bool falls = !table.empty() && *t < table.back().first;
     if (falls || (by_size && !table.empty() && *t == table.back().first)) {
-      add(row.source(), fmt::format("{}: {}", key.path(), by_size ? "openings must rise" : "times must not fall"));
+      add(row.source(), fmt::format("{}: {}", key.path(), of_pair.order));
       return std::nullopt;
     }
     table.emplace_back(*t, *v);

@@ -80,7 +80,7 @@ Grid grid_of(const Column& column, const std::shared_ptr<const Ranks>& ranks) {
   grid.periodic[0] = column.sides == core::Boundary::periodic;
   grid.periodic[2] = column.sides == core::Boundary::periodic && column.dimensions == 3;
   Grid block = block_of(grid, ranks);
-  block.metric = metric_of(block, column.shape);
+  block.metric = metric_of(block, column.shape, column.profile);
   return block;
 }
 
@@ -91,7 +91,8 @@ Grid whole_column(const Grid& block) {
   column.periodic = block.periodic;
   for (int axis = 0; axis < 3; ++axis) column.cells[std::size_t(axis)] = block.column_cells(axis);
   if (block.metric)
-    column.metric = metric_of(column, block.metric->around_axis ? ColumnShape::axisymmetric : ColumnShape::cylinder);
+    column.metric = metric_of(column, block.metric->around_axis ? ColumnShape::axisymmetric : ColumnShape::cylinder,
+                              block.metric->taper);
   return column;
 }
 

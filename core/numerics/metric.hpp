@@ -7,10 +7,15 @@
 //
 // A face's momentum has the mean volume of the two cells beside it, so that its convection telescopes. Around an axis
 // alpha and theta grow with the radius, and a box as wide as the radius and pi times as deep has the column's area.
+//
+// The pressure of a wall is that of its cell: on the area that the open faces of a cell lack it leaves theta grad p, so
+// that an even pressure pushes nothing, and a bed rests in a cone as it does in a box.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "core/case/choices.hpp"
@@ -18,10 +23,14 @@
 
 namespace polybed::core {
 
-/// Of the whole column, the same at every height; x runs fastest.
+/// Height and diameter of a column, m: core::Column::profile.
+using Taper = std::vector<std::pair<double, double>>;
+
+/// Of the whole column, in one layer of cells; x runs fastest.
 struct CrossSection {
   int width = 0, depth = 0;    ///< cells along x and z
   std::vector<double> volume;  ///< theta; 0: closed
+  std::vector<double> open_y;  ///< alpha of the low faces along y
   std::vector<double> open_x;  ///< alpha of the low faces along x, width + 1 a row
   std::vector<double> open_z;  ///< and along z, depth + 1 rows; empty in two dimensions
   std::vector<double> wall;    ///< of curved walls: area over distance and open volume, 1/m2
@@ -34,7 +43,8 @@ struct CrossSection {
 };
 
 struct Metric {
-  CrossSection section;
+  std::vector<CrossSection> layers;  ///< from the bottom; one: all alike; else with what lies on the top
+  Taper taper;
   Field volume;              ///< theta
   Field per_volume;          ///< 1/theta; 0 where closed
   FaceField open;            ///< alpha; 0 where closed
@@ -44,10 +54,21 @@ struct Metric {
   Field per_radius_on;       ///< and of faces along x
   bool around_axis = false;  ///< the low end along x is an axis and no wall
   std::array<std::vector<Index>, 3> closed;  ///< faces of the padded box without an open part
+
+  [[nodiscard]] bool tapered() const { return layers.size() > 1; }
+  /// The cross-section of a layer of the column, and the one on whose low faces a layer of faces lies; beyond the ends
+  /// that of the outermost.
+  [[nodiscard]] const CrossSection& layer(int y) const { return layers[clamped(y, 2)]; }
+  [[nodiscard]] const CrossSection& level(int y) const { return layers[clamped(y, 1)]; }
+
+ private:
+  [[nodiscard]] std::size_t clamped(int y, int from_end) const {
+    return std::size_t(std::clamp(y, 0, std::max(int(layers.size()) - from_end, 0)));
+  }
 };
 
 /// Of a block, or the whole column, with the shape of the column that it is a part of; null for a box.
-[[nodiscard]] std::shared_ptr<const Metric> metric_of(const Grid& grid, ColumnShape shape);
+[[nodiscard]] std::shared_ptr<const Metric> metric_of(const Grid& grid, ColumnShape shape, const Taper& taper = {});
 
 /// Cells all alike: nothing is left of it in a kernel.
 struct UniformMetric {
@@ -90,8 +111,9 @@ void with_metric(const Grid& grid, Act&& act) {
   grid.metric ? act(GeneralMetric(*grid.metric)) : act(UniformMetric());
 }
 
-/// Open area of the faces of a layer: cells of it that are as large as a whole one.
-[[nodiscard]] double open_cells_of_layer(const Grid& grid);
+/// Open volume of a layer of the column, in whole cells, and open area of the faces below it, in whole faces.
+[[nodiscard]] double open_cells_of_layer(const Grid& grid, int layer = 0);
+[[nodiscard]] double open_faces_below(const Grid& grid, int layer);
 
 /// What the solvers of elliptic equations, which know equal cells alone, take for coefficients on faces and a source on
 /// cells: each times its open share. Closed faces between cells keep a billionth, so that no cell stands alone.

@@ -57,8 +57,16 @@ void add_differences(const double* b, const double* p, double w, Index s, Index 
 
 }  // namespace
 
+namespace {
+
+bool is_tapered(const Grid& grid) { return grid.metric && grid.metric->tapered(); }
+/// Whether a wall cuts cells, at every height alike.
+bool is_cut_alike(const Grid& grid) { return grid.metric && !grid.metric->around_axis && !is_tapered(grid); }
+
+}  // namespace
+
 bool RowMeanSolver::serves(const Grid& grid) {
-  if (grid.metric && !grid.metric->around_axis) return SectionModes::serves(grid);
+  if (is_cut_alike(grid)) return SectionModes::serves(grid);
   return grid.cells[0] <= most_across && grid.cells[2] <= most_across;
 }
 
@@ -72,12 +80,12 @@ RowMeanSolver::RowMeanSolver(const Grid& grid)
       image_(residual_),
       preconditioned_(residual_) {
   across_[0] = across_[1] = diagonal_;
-  if (grid.metric && !grid.metric->around_axis) {
+  if (is_cut_alike(grid)) {
     section_.emplace(grid);
     x_.rate = section_->rates();
     z_.rate = {0};
   } else {
-    x_ = grid.metric ? modes_of_rings(grid) : modes_of(grid, 0);
+    x_ = grid.metric && !is_tapered(grid) ? modes_of_rings(grid) : modes_of(grid, 0);
     z_ = modes_of(grid, 2);
   }
   values_.resize(grid.cells[1] * Eigen::Index(z_.rate.size()), Eigen::Index(x_.rate.size()));
@@ -107,7 +115,7 @@ RowMeanSolver::Modes RowMeanSolver::modes_of(const Grid& grid, int axis) {
 
 /// Of sum alpha (p - p_next) = rate theta p, alpha and theta of the rings.
 RowMeanSolver::Modes RowMeanSolver::modes_of_rings(const Grid& grid) {
-  const CrossSection& rings = grid.metric->section;
+  const CrossSection& rings = grid.metric->layers.front();
   const int n = rings.width;
   Eigen::MatrixXd differences = Eigen::MatrixXd::Zero(n, n), volume = differences;
   for (int i = 0; i < n; ++i) {
@@ -124,7 +132,8 @@ RowMeanSolver::Modes RowMeanSolver::modes_of_rings(const Grid& grid) {
 /// Means over the cells of each height; false if coefficients differ too much along one.
 bool RowMeanSolver::average(const FaceSpans& coefficient, std::span<const double> shift) {
   const auto n = grid_.cells;
-  bool fine = true;
+  bool fine = !is_tapered(grid_);  // where the wall leans no row is even
+  if (!fine) return false;
   double faces = 0;
   const auto mean = [&](int axis, int row) {
     const auto a = std::size_t(axis);

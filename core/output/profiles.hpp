@@ -11,6 +11,9 @@
 
 namespace polybed::core {
 
+/// Of a column whose diameter changes, the cross-section of each entry, m2.
+constexpr const char* area_of_slabs = "area";
+
 class ProfileWriter {
  public:
   /// Starts profiles.h5 in a run directory that exists, or goes on with it.

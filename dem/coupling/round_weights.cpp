@@ -36,7 +36,7 @@ LayerWeights::LayerWeights(const core::Grid& grid, int of)
       per_spacing_{1 / grid.spacing[0], 1 / grid.spacing[2]},
       offset_{of == 0 ? 0 : 0.5, of == 2 ? 0 : 0.5},
       radius_(0.5 * grid.cells[0] * grid.spacing[0]) {
-  const std::vector<double> volume = volumes(grid.metric->section, of);
+  const std::vector<double> volume = volumes(grid.metric->layers.front(), of);
   for (int k = 0; k < count_[1]; ++k)
     for (int i = 0; i < count_[0]; ++i) {
       const std::size_t to = taker(volume, i, k), row = std::size_t(count_[0]);

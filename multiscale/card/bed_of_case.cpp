@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 
 #include "closures/bed_expansion.hpp"
@@ -37,7 +38,7 @@ double value_at(const std::vector<std::pair<double, double>>& points, double tim
 double share_of_bottom(const core::Column& column, const core::Jet& jet) {
   if (jet.from.empty() || jet.to.empty()) return 1;
   if (column.around_axis())
-    return (jet.to[0] * jet.to[0] - jet.from[0] * jet.from[0]) / (column.size[0] * column.size[0]);
+    return std::numbers::pi * (jet.to[0] * jet.to[0] - jet.from[0] * jet.from[0]) / column.cross_section();
   double area = jet.to[0] - jet.from[0];
   const bool wide = jet.from.size() < 2 || jet.to.size() < 2;
   area *= wide ? column.size[2] : jet.to[1] - jet.from[1];
@@ -83,13 +84,40 @@ struct Balance {
     if (known()) return closures::carrying_velocity(drag(), bed, packed);
     return closures::minimum_fluidisation(bed.diameter, bed.excess, bed.fluid_density, bed.viscosity, bed.gravity);
   }
-  /// \param settled  height of the packed bed, m
-  [[nodiscard]] std::optional<double> height(const CarriedBed& bed, double velocity, double settled) const {
+  /// \param settled  height of the packed bed, m, were the column as wide everywhere as at the bottom
+  [[nodiscard]] std::optional<double> height(const core::Column& column, const CarriedBed& bed, double velocity,
+                                             double settled) const {
     if (!known() || !(settled > 0)) return {};
+    if (column.is_tapered()) return height_in_taper(column, bed, velocity, settled * (1 - packed));
     const double voidage = closures::carried_voidage(drag(), bed, velocity, packed);
     return voidage < 1 ? std::optional(settled * (1 - packed) / (1 - voidage)) : std::nullopt;
   }
+
+ private:
+  /// Of a bed that expands in each slice of the column as the velocity there asks; nothing if it is higher than the
+  /// column.
+  [[nodiscard]] std::optional<double> height_in_taper(const core::Column& column, const CarriedBed& bed,
+                                                      double velocity, double solids) const {
+    constexpr int slices = 200;
+    const double slice = column.size[1] / slices;
+    for (int n = 0; n < slices; ++n) {
+      const double even = column.even_height((n + 1) * slice) - column.even_height(n * slice);
+      const double voidage = closures::carried_voidage(drag(), bed, velocity * slice / even, packed);
+      const double here = std::max(1 - voidage, 0.0) * even;
+      if (here > 0 && solids <= here) return slice * (n + solids / here);
+      solids -= here;
+    }
+    return std::nullopt;
+  }
 };
+
+/// The least velocity between bottom and top: where the column is widest.
+double least_velocity(const core::Column& column, double velocity) {
+  double widest = column.cross_section();
+  for (const auto& [height, diameter] : column.profile)
+    widest = std::max(widest, std::numbers::pi / 4 * diameter * diameter);
+  return velocity * column.cross_section() / widest;
+}
 
 Balance balance_of(const core::Scene& scene) {
   Balance balance;
@@ -130,7 +158,7 @@ void expect(const core::Scene& scene, const Balance& balance, std::vector<double
   const double velocity = *bed.velocity;
   bed.state = velocity < *bed.own.minimum_fluidisation ? packed : fluidised;
   for (std::size_t j = 0; j < share.size(); ++j)
-    if (velocity > bed.species[j].terminal.value_or(0)) {
+    if (least_velocity(scene.column, velocity) > bed.species[j].terminal.value_or(0)) {
       share[j] = 0;
       bed.leaving.push_back(bed.species[j].name);
     }
@@ -141,8 +169,10 @@ void expect(const core::Scene& scene, const Balance& balance, std::vector<double
     return;
   }
   const CarriedBed bed_of_those = mixture_of(scene, share, fluid, gravity);
-  const double settled = stays * scene.bed.static_height;
-  const auto height_by = [&](const Balance& one) { return one.height(bed_of_those, velocity, settled); };
+  const double settled = stays * scene.column.even_height(scene.bed.static_height);
+  const auto height_by = [&](const Balance& one) {
+    return one.height(scene.column, bed_of_those, velocity, settled);
+  };
   bed.own.height = height_by(balance);
   Balance other = balance;
   for (ByLaw& one : bed.others) {
@@ -151,7 +181,8 @@ void expect(const core::Scene& scene, const Balance& balance, std::vector<double
   }
   const bool bubbles = fluid.density < greatest_density_of_gas;
   const bool packed_start = scene.bed.start_solids_fraction == scene.bed.solids_fraction;
-  if (!bubbles && packed_start && bed.leaving.empty()) bed.rising_time = rising_time(bed, settled);
+  if (!bubbles && packed_start && bed.leaving.empty() && !scene.column.is_tapered())
+    bed.rising_time = rising_time(bed, settled);
 }
 
 /// Of the rows of docs/record/validation.md with this kind of bed.

@@ -45,8 +45,11 @@ core::Scene in_units(core::Scene scene, const UnitSystem& units) {
     for (const core::Key& key : table.keys)
       for (std::size_t n = 0; n < table.count(scene); ++n) {
         core::Value value = key.get(scene, n);
-        const bool by_size = key.kind == core::Kind::sieves;
-        std::visit(Scale{number_of_one(key.dimension, units), by_size ? 1.0 : units.time}, value);
+        const bool by_size = key.kind == core::Kind::sieves, by_height = key.kind == core::Kind::heights;
+        std::visit(Scale{number_of_one(key.dimension, units), by_height ? units.length
+                                                              : by_size ? 1.0
+                                                                        : units.time},
+                   value);
         if (!std::holds_alternative<std::monostate>(value)) key.set(scene, n, value);
       }
   for (double& side : scene.column.size)

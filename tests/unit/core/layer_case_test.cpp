@@ -128,7 +128,7 @@ to = ["15 mm"]
   ASSERT_EQ(parts.size(), 3U);
   EXPECT_NEAR(parts[1].area(), 1.0 / 3, 1e-15);
   EXPECT_NEAR(parts[1].solids[1], 0.6 * 0.04, 1e-16);
-  const std::vector<Extent> extents = stacked(parts);
+  const std::vector<Extent> extents = stacked(parts, scene.column);
   EXPECT_EQ(extents[0].low, 0);
   EXPECT_EQ(extents[1].low, 0);
   EXPECT_NEAR(extents[1].high, 0.04, 1e-16);
@@ -150,7 +150,7 @@ TEST(Layers, ALooserStartIsHigher) {
   const std::vector<BedPart> parts = start_parts(scene);
   EXPECT_EQ(parts[0].solids_fraction, 0.55);
   EXPECT_EQ(parts[1].solids_fraction, 0.5);
-  const std::vector<Extent> extents = stacked(parts);
+  const std::vector<Extent> extents = stacked(parts, scene.column);
   EXPECT_NEAR(extents[0].high, 0.02 * 0.6 / 0.55, 1e-16);
   EXPECT_NEAR(extents[1].high, 0.02 * 0.6 / 0.55 + 0.03, 1e-16);
 }

@@ -33,7 +33,7 @@ double sum_of(const std::vector<double>& values) {
 // times its side.
 TEST(RoundColumn, OfFourCellsIsFourQuarters) {
   const auto metric = metric_of(grid_across(2, 3), ColumnShape::cylinder);
-  CrossSection section = metric->section;
+  CrossSection section = metric->layers.front();
   for (const double theta : section.volume) EXPECT_NEAR(theta, pi / 4, 1e-14);
   for (int n = 0; n < 2; ++n) {
     EXPECT_NEAR(section.x_face(1, n), 1, 1e-14);
@@ -48,13 +48,13 @@ TEST(RoundColumn, OfFourCellsIsFourQuarters) {
 TEST(RoundColumn, HasTheAreaOfItsCircleOnAnyGrid) {
   for (const int cells : {3, 8, 10, 16, 33}) {
     const auto metric = metric_of(grid_across(cells, 3), ColumnShape::cylinder);
-    EXPECT_NEAR(sum_of(metric->section.volume) / (cells * cells), pi / 4, 1e-13) << cells;
+    EXPECT_NEAR(sum_of(metric->layers.front().volume) / (cells * cells), pi / 4, 1e-13) << cells;
   }
 }
 
 TEST(RoundColumn, IsTheSameTurnedAndMirroredAndHasNoSmallCells) {
   for (const int cells : {8, 13, 16}) {
-    CrossSection section = metric_of(grid_across(cells, 3), ColumnShape::cylinder)->section;
+    CrossSection section = metric_of(grid_across(cells, 3), ColumnShape::cylinder)->layers.front();
     for (int k = 0; k < cells; ++k)
       for (int i = 0; i < cells; ++i) {
         const double theta = section.volume_of(i, k);
@@ -71,7 +71,7 @@ TEST(RoundColumn, IsTheSameTurnedAndMirroredAndHasNoSmallCells) {
 /// Flow of a fluid of unit viscosity under a unit gradient of pressure along a pipe, over Poiseuille's pi R^4/8, less
 /// 1: sum alpha (u - u_next)/h^2 + wall theta u = theta, cell by cell.
 double excess_flow(int cells) {
-  CrossSection section = metric_of(grid_across(cells, 3), ColumnShape::cylinder)->section;
+  CrossSection section = metric_of(grid_across(cells, 3), ColumnShape::cylinder)->layers.front();
   const double h = 1.0 / cells;
   const Index n = Index(section.volume.size());
   Eigen::MatrixXd equations = Eigen::MatrixXd::Identity(n, n);  // of closed cells
@@ -146,7 +146,7 @@ TEST(Rings, KnowTheDivergenceOfRadialFlow) {
   divergence(grid, flux, rate);
   for (int i = 0; i < grid.cells[0]; ++i) EXPECT_NEAR(rate[std::size_t(grid.index(i, 1))], 2, 1e-13);
   // Of the radius R a ring's area is 2 pi r h, over h times the depth pi R: 1/5, 3/5, 1, 7/5, 9/5.
-  for (int i = 0; i < 5; ++i) EXPECT_NEAR(grid.metric->section.volume[std::size_t(i)], (2 * i + 1) / 5.0, 1e-15);
+  for (int i = 0; i < 5; ++i) EXPECT_NEAR(grid.metric->layers.front().volume[std::size_t(i)], (2 * i + 1) / 5.0, 1e-15);
   EXPECT_TRUE(grid.metric->around_axis);
 }
 

@@ -135,6 +135,20 @@ TEST(Profile, OnOtherSlabsKeepsVolumes) {
   EXPECT_NEAR(on_slabs(p, 1, 3).fraction[0][2], 6, 1e-14);
 }
 
+// In a column of areas 1, 2 and 3 over slabs of 1 m, phi = 0.6, 0.3 and 0.2: each slab has a volume of 0.6. A half lies
+// below the middle of the second, the centre of volume in its middle.
+TEST(Measures, WeighHeightsByTheCrossSection) {
+  Profile p{1, {{0.6, 0.3, 0.2}}, {}, {1, 2, 3}};
+  EXPECT_NEAR(*volume_quantile(p, 0.5), 1.5, 1e-15);
+  EXPECT_NEAR(*volume_quantile(p, 1.0 / 3), 1, 1e-14);
+  EXPECT_NEAR(*centre(p, 0), 1.5, 1e-15);
+  // By hand: slabs of 1.5 m have areas 4/3 and 8/3 and volumes of 0.9.
+  const Profile other = on_slabs(p, 1.5, 2);
+  EXPECT_NEAR(other.areas[0], 4.0 / 3, 1e-14);
+  EXPECT_NEAR(other.fraction[0][0], 0.9 / 2, 1e-14);
+  EXPECT_NEAR(other.fraction[0][1], 0.9 / 4, 1e-14);
+}
+
 TEST(Measures, DistanceOfTwoProfiles) {
   const Profile low = profile_of([](double z) { return step(z, 0, 0.1, 0.5); });
   const Profile shifted = profile_of([](double z) { return step(z, 0.02, 0.12, 0.5); });
