@@ -27,8 +27,9 @@ Parts parts_of(const Model& model, bool ledger) {
           .compressible = coupling != nullptr && coupling->flow().compressible() != nullptr};
 }
 
-std::vector<std::string> profile_names(const Model& model) {
+std::vector<std::string> profile_names(const Model& model, const measures::Slabs& slabs) {
   std::vector<std::string> names{"voidage"};
+  if (!slabs.areas.empty()) names.emplace_back(core::area_of_slabs);
   for (const Species& s : model.materials().species())
     for (const char* what : {"phi_", "u_", "theta_"}) names.push_back(what + s.name);
   if (model.coupling() != nullptr)
@@ -50,6 +51,15 @@ std::vector<double> slab_centres(const measures::Slabs& slabs) {
   std::vector<double> y;
   for (std::size_t k = 0; k < slabs.count; ++k) y.push_back((double(k) + 0.5) * slabs.thickness());
   return y;
+}
+
+measures::Slabs slabs_of(const Model& model, const core::Column& column) {
+  measures::Slabs slabs{column.cross_section(), model.box().size[1], std::size_t(column.cells[1]),
+                        model.box().periodic[1], model.box().image_speed()};
+  const double thickness = slabs.thickness();
+  for (std::size_t k = 0; k < slabs.count && column.is_tapered(); ++k)
+    slabs.areas.push_back(column.area_between(double(k) * thickness, double(k + 1) * thickness));
+  return slabs;
 }
 
 /// What fixes the units of the sums over particles: of this rank's, of all once a reduction has put them together.
@@ -143,8 +153,7 @@ measures::ParticleProfile profile_of(const Model& model, const measures::Slabs& 
 Observers::Observers(const Model& model, const core::Scene& scene, const std::filesystem::path& directory,
                      std::optional<RunStart> start, const FluidTotals& fluid, std::optional<double> resume_time)
     : model_(model),
-      slabs_{scene.column.cross_section(), model.box().size[1], std::size_t(scene.column.cells[1]),
-             model.box().periodic[1], model.box().image_speed()},
+      slabs_(slabs_of(model, scene.column)),
       history_(measures::bed_table(), history_table(parts_of(model, scene.dem.ledger)), names_of(model)),
       particles_(directory, {model.box().size, model.box().periodic, names_of(model)}, resume_time, model.share()),
       totals_(totals_of(model)),
@@ -153,7 +162,7 @@ Observers::Observers(const Model& model, const core::Scene& scene, const std::fi
   if (coupling != nullptr) fluid_.emplace(*coupling, model.ranks(), fluid);
   core::on_first(model.ranks(), [&] {
     files_.reset(new Files{{directory, history_.columns(), resume_time},
-                           {directory, slab_centres(slabs_), profile_names(model), resume_time},
+                           {directory, slab_centres(slabs_), profile_names(model, slabs_), resume_time},
                            nullptr});
     if (coupling != nullptr)
       files_->fluid = std::make_unique<FluidOutput>(*coupling, names_of(model), directory, resume_time);
@@ -235,6 +244,7 @@ void Observers::write_particles(double time) {
   core::on_first(model_.ranks(), [&] {
     std::vector<std::vector<double>> rows{std::vector<double>(slabs_.count, 0.0)};
     for (std::size_t k = 0; k < slabs_.count; ++k) rows[0][k] = 1 - profile.solids.solids_fraction(k);
+    if (!slabs_.areas.empty()) rows.push_back(slabs_.areas);
     for (std::size_t j = 0; j < profile.velocity.size(); ++j) {
       rows.push_back(profile.solids.fraction[j]);
       rows.push_back(profile.velocity[j]);

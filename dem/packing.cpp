@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 
 #include "closures/sphere.hpp"
@@ -51,10 +52,12 @@ struct Group {
   Region region;
 };
 
-/// Height above which the particles are placed, m: the top of the walls inside.
+/// Height above which the particles are placed, m: the top of the walls inside, and of what is narrower than the widest
+/// part of a tapered column.
 double floor_of(const core::Scene& scene) {
   double top = 0;
-  for (const core::InnerWall& wall : scene.walls) top = std::max({top, wall.from[1], wall.to[1]});
+  for (const auto& walls : {scene.walls, core::walls_of_taper(scene.column)})
+    for (const core::InnerWall& wall : walls) top = std::max({top, wall.from[1], wall.to[1]});
   return top;
 }
 
@@ -76,7 +79,9 @@ double start_fraction(const core::BedPart& part) {
 /// Height that particles fill over a part's area at the solids fraction of the start, m.
 double height_of(const std::vector<std::int64_t>& numbers, const core::BedPart& part, const Materials& materials,
                  const core::Column& column) {
-  const double area = column.cross_section() * part.area();
+  // Above the floor a tapered column is as wide as it gets.
+  const double area = part.area() * (column.is_tapered() ? std::numbers::pi / 4 * column.size[0] * column.size[0]
+                                                         : column.cross_section());
   double height = 0;
   for (std::size_t j = 0; j < numbers.size(); ++j)
     height +=
@@ -211,8 +216,8 @@ std::string no_room_for(const core::Scene& scene, const Materials& materials, co
     return fmt::format(
         "they fill {:.4g} m of the column's height at a solids fraction of {:.3g}, which is more than it has{}, "
         "{:.4g} m: enlarge column.size",
-        top - floor, start_fraction(core::start_parts(scene).front()), floor > 0 ? " above the top of [[wall]]" : "",
-        box.size[1] - floor);
+        top - floor, start_fraction(core::start_parts(scene).front()),
+        floor > 0 ? " above the top of its narrow part or of [[wall]]" : "", box.size[1] - floor);
   for (const Group& group : groups)
     if (std::string wrong = no_room_in(group, materials, box); !wrong.empty()) return wrong;
   return "";

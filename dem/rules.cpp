@@ -34,6 +34,13 @@ const std::vector<core::Rule>& model_rules() {
        "column.shape = \"axisymmetric\": polybed tfm can run it, polybed dem cannot: particles go around the axis; use "
        "\"cylinder\"",
        [](const core::Scene& scene) { return core::broken_if(scene.column.around_axis()); }},
+      {{"column.profile", "fluid.name"},
+       "column.profile in a fluid: polybed tfm can run it, polybed dem cannot; set fluid.name = \"none\"",
+       [](const core::Scene& scene) { return core::broken_if(scene.column.is_tapered() && scene.fluid.present()); }},
+      {{"column.profile", "feed.species"},
+       "column.profile and [[feed]]: polybed tfm can run it, polybed dem cannot: particles would enter beside a narrow "
+       "end",
+       [](const core::Scene& scene) { return core::broken_if(scene.column.is_tapered() && !scene.feeds.empty()); }},
       {{"column.outlet", "fluid.name", "fluid.equation_of_state"},
        "column.outlet = \"open\" in a compressible fluid: polybed tfm can run it, polybed dem cannot: the mass of the "
        "fluid that takes the place of a particle as it leaves would be missing; use fluid.equation_of_state = "

@@ -26,12 +26,13 @@ double most_contacts(double radius, double partner) {
 }
 
 /// Walls that a particle touches at once; of those inside, two beside each other.
-double most_walls(const core::Scene& scene) { return scene.walls.empty() ? 3 : 5; }
+double most_walls(const core::Scene& scene) { return scene.walls.empty() && !scene.column.is_tapered() ? 3 : 5; }
 
 /// Half the height of the side of a round box over the box's: particles fly beyond an open top.
 constexpr double beyond_the_top = 100;
 
-/// The walls inside, and the side of a round box. Those of one shape join: a scene has either flat ones or round ones.
+/// The walls inside, those of a tapered column, and the side of a round box. Those of one shape join: a scene has
+/// either flat ones or round ones.
 void add_plates(const core::Scene& scene, Box& box) {
   const auto end_of = [](const std::vector<double>& end) { return InPlane{0.5 * end[0], end[1]}; };
   bool round = false;
@@ -41,6 +42,12 @@ void add_plates(const core::Scene& scene, Box& box) {
       box.add_cone(end_of(wall.from), end_of(wall.to));
     else
       box.add_plate({wall.from[0], wall.from[1], wall.to[0], wall.to[1]});
+  }
+  for (const core::InnerWall& wall : core::walls_of_taper(scene.column)) {
+    round = true;
+    box.add_cone(end_of(wall.from), end_of(wall.to));
+    if (wall.to[1] == scene.column.profile.back().first && wall.to[0] < box.size[0])  // or they would fall beside it
+      box.add_cone(end_of(wall.to), {0.5 * wall.to[0], beyond_the_top * box.size[1]});
   }
   const double radius = 0.5 * box.size[0], far = beyond_the_top * box.size[1];
   if (box.round) box.add_cone({radius, -far}, {radius, far});

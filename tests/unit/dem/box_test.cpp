@@ -3,6 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <random>
+#include <tuple>
+
+#include "core/case/scene.hpp"
+#include "dem/scene.hpp"
 
 namespace polybed::dem {
 namespace {
@@ -162,6 +166,32 @@ TEST(Box, WhatIsNearestPushesWhereverPlatesMeet) {
     EXPECT_GE(box.joints.size(), 6U);
     for (int m = 0; m < 20; ++m) expect_nearest_pushes(box, {place(random), place(random), 0});
   }
+}
+
+// A cone in the profile of a round column is the cone of a [[wall]] in an even one, and a step is a flat ring; what
+// ends at the top goes on above it.
+TEST(Box, HasTheWallsOfATaperedColumn) {
+  core::Scene scene;
+  scene.column.shape = core::ColumnShape::cylinder;
+  scene.column.dimensions = 3;
+  scene.column.size = {0.2, 0.5, 0.2};
+  scene.fluid.name = "none";
+  core::Scene given = scene;
+  given.walls = {{{0.06, 0}, {0.1, 0.1}, core::WallShape::cone}, {{0.1, 0.1}, {0.2, 0.1}, core::WallShape::cone}};
+  scene.column.profile = {{0, 0.06}, {0.1, 0.1}, {0.1, 0.2}, {0.5, 0.2}};
+  const Box tapered = box_of(scene), with_walls = box_of(given);
+  ASSERT_EQ(tapered.plates.size(), with_walls.plates.size());
+  for (std::size_t n = 0; n < tapered.plates.size(); ++n) {
+    const Plate &one = tapered.plates[n], &other = with_walls.plates[n];
+    EXPECT_EQ(std::tie(one.x, one.y, one.along_x, one.along_y),
+              std::tie(other.x, other.y, other.along_x, other.along_y));
+  }
+  EXPECT_EQ(tapered.joints.size(), with_walls.joints.size());
+  scene.column.profile = {{0, 0.2}, {0.4, 0.2}, {0.5, 0.1}};
+  const Box narrow = box_of(scene);
+  EXPECT_EQ(narrow.plates.size(), 4U);  // cone, what goes on above it, side and bottom
+  EXPECT_EQ(narrow.plates[1].x, 0.05);
+  EXPECT_GT(narrow.plates[1].along_y, 10);
 }
 
 }  // namespace
