@@ -6,6 +6,15 @@ ROUND = ["column.shape=cylinder", "column.size=[0.06,0.06,0.2]", "column.cells=[
 AROUND = "column.shape=axisymmetric"
 
 
+def tapered(*rows):
+    """Of a column of 120 mm by 200 mm in cells of 10 mm."""
+    return [AROUND, "column.profile=" + str([list(row) for row in rows])]
+
+
+TAPERED = tapered((0, 0.06), (0.1, 0.12), (0.2, 0.12))
+CONE = [*ROUND, "column.profile=[[0, 0.04], [0.1, 0.06], [0.2, 0.06]]"]
+
+
 def wall(start, end, shape="flat"):
     return f'wall=[{{from={start}, to={end}, shape="{shape}"}}]'
 
@@ -27,6 +36,13 @@ WALLS = {
     "[[jet]] number {} reaches beyond the round column, {} m in diameter: move jet.from and jet.to inwards": [
         *ROUND, "jet=[{from=[0, 0.02], to=[0.04, 0.04], superficial_velocity=0.1}]"],
     "column.cells: {} cells across and {} deep in a round column: at most four times as many one way": [*ROUND, "column.cells=[1, 6, 20]"],
+    'column.profile is for round columns: use column.shape = "axisymmetric" or "cylinder"': TAPERED[1:],
+    "column.profile goes from {} to {} m: from 0 to the height of the column, {} m": tapered((0, 0.06), (0.1, 0.12)),
+    "column.profile: three pairs at {} m; a step has two": tapered((0, 0.06), (0.1, 0.06), (0.1, 0.08), (0.1, 0.12), (0.2, 0.12)),
+    "column.profile is {} m in diameter where it is widest, column.size {} m: make them equal": tapered((0, 0.06), (0.2, 0.1)),
+    'column.profile and bed.start = "random" cannot be combined yet: particles would be placed beside the narrow part; use "mixed"': [
+        *CONE, "bed.start=random"],
+    "column.profile: {} m at its narrowest are {} cells, at least {}: take more cells in column.cells": tapered((0, 0.03), (0.2, 0.12)),
     "wall.from and wall.to have {} and {} numbers: 2 here, x and y, or diameter and height of a round one": [wall([0.01], [0.02, 0.01])],
     "[[wall]] number {} is {} m in diameter at its narrow end, less than two particles, {} m: widen it": [
         wall([0.0015, 0.1], [0.02, 0.12], "cone")],
@@ -54,4 +70,7 @@ ROUND_OF_MODELS = {
 }
 ROUND_FOR_ONE_MODEL = {
     'column.shape = "axisymmetric": polybed tfm can run it, polybed dem cannot: particles go around the axis; use "cylinder"': [AROUND],
+    'column.profile in a fluid: polybed tfm can run it, polybed dem cannot; set fluid.name = "none"': CONE,
+    "column.profile and [[feed]]: polybed tfm can run it, polybed dem cannot: particles would enter beside a narrow end": [
+        *CONE, feeds("")],
 }

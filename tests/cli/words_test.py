@@ -10,7 +10,7 @@ import unittest.mock
 import program
 from program import CASE, DONE, ROOT, WRONG_CASE, Scratch, run_all, small_bed, strict_json
 
-TEMPLATES = ["binary-both-scales", "classifier", "gas-bed", "hopper", "liquid-bed", "round-liquid-bed", "sphere"]
+TEMPLATES = ["binary-both-scales", "classifier", "gas-bed", "hopper", "liquid-bed", "round-liquid-bed", "sphere", "tapered-bed"]
 WIDTH = 100  # columns
 
 

@@ -95,6 +95,11 @@ class Ranks(Scratch):
     def test_a_deep_bed_with_joined_sides_is_the_same(self):
         self.check_equal(*DEEP, *FIXED, case=self.write("deep.toml", case_without("depth")))
 
+    def test_a_tapered_bed_is_the_same(self):
+        """Cells that the wall closes lie on both sides of every cut."""
+        case = CASE.parents[1] / "templates/tapered-bed/case.toml"
+        self.check_equal("--set", "column.cells=[12,60]", *FIXED, case=case)
+
     def test_a_dam_in_layers_is_the_same(self):
         """Its faces lie inside cells, and cuts between ranks inside the dam."""
         dam = "from=[0], to=[0.027]"

@@ -38,18 +38,28 @@ def map_size(run, top, most):
 
 
 def walls_of(run):
-    """The walls inside the column, (start, end, round): x and y of the ends of a flat one, diameter and height of a round one, m."""
+    """The walls inside the column and the side of a tapered one, (start, end, round): x and y of the ends of a flat one, diameter and height
+    of a round one, m."""
     try:
-        return [(wall["from"], wall["to"], wall.get("shape", "flat") != "flat") for wall in case_of(run.record).get("wall", [])]
+        case = case_of(run.record)
+        side = [[diameter, height] for height, diameter in case.get("column", {}).get("profile", [])]
+        inside = [(wall["from"], wall["to"], wall.get("shape", "flat") != "flat") for wall in case.get("wall", [])]
+        return inside + [(low, high, True) for low, high in zip(side, side[1:])]
     except DamagedError:
         return []
 
 
+def is_around_axis(run):
+    """Whether the width of the run is a radius."""
+    return case_of(run.record).get("column", {}).get("shape") == "axisymmetric"
+
+
 def inner_walls(run):
     """Ends of the lines in which the walls inside the column cut the plane of x and y in its middle, m."""
-    lines = []
-    for start, end, is_round in walls_of(run):
-        lines += [[(run.size[0] / 2 + side * point[0] / 2, point[1]) for point in (start, end)] for side in (-1, 1)] if is_round else [(start, end)]
+    lines, walls = [], walls_of(run)
+    axis, sides = (0, (1,)) if walls and is_around_axis(run) else (run.size[0] / 2, (-1, 1))
+    for start, end, is_round in walls:
+        lines += [[(axis + side * point[0] / 2, point[1]) for point in (start, end)] for side in sides] if is_round else [(start, end)]
     return lines
 
 
