@@ -35,7 +35,7 @@ FixedPoint virial_unit(const Model& model) {
 void find_force(const PairLaws& laws, ContactBatch& batch) {
   laws.normal->act(batch);
   if (laws.tangential) laws.tangential->act(batch, 0);
-  laws.each_attraction([&](const CohesionLaw& law) { law.act(batch); });
+  laws.each_attraction([&](const CohesionLaw& law) { law.act(batch, 0); });
   if (!laws.film) return;
   alignas(64) ContactBatch::Row force;
   laws.film->act(batch, force);

@@ -47,7 +47,7 @@ void draw_in(core::Scene& scene, std::size_t axis, int cells) {
   for (core::Feed& feed : scene.feeds) draw(feed);
   for (core::Layer& layer : scene.layers) draw(layer);
   const bool fed_above = std::any_of(scene.feeds.begin(), scene.feeds.end(),
-                                     [](const core::Feed& feed) { return feed.at == core::FeedEnd::top; });
+                                     [](const core::Feed& feed) { return feed.at == core::ColumnEnd::top; });
   if (fed_above) column.outlet = core::Outlet::screen;  // one that is left of a few cells may be fed shut
 }
 

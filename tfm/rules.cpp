@@ -78,7 +78,7 @@ Broken on_closed_cells(const Scene& scene) {
   if ((!scene.column.is_round() && !scene.column.is_tapered()) || scene.column.closed) return broken;
   const core::Grid grid = core::grid_of(scene.column, nullptr);
   const auto at_top = [](const auto& part) {
-    if constexpr (requires { part.at; }) return part.at == core::FeedEnd::top;
+    if constexpr (requires { part.at; }) return part.at == core::ColumnEnd::top;
     return false;
   };
   const auto see = [&](const auto& parts, const char* what) {

@@ -170,9 +170,7 @@ void expect(const core::Scene& scene, const Balance& balance, std::vector<double
   }
   const CarriedBed bed_of_those = mixture_of(scene, share, fluid, gravity);
   const double settled = stays * scene.column.even_height(scene.bed.static_height);
-  const auto height_by = [&](const Balance& one) {
-    return one.height(scene.column, bed_of_those, velocity, settled);
-  };
+  const auto height_by = [&](const Balance& one) { return one.height(scene.column, bed_of_those, velocity, settled); };
   bed.own.height = height_by(balance);
   Balance other = balance;
   for (ByLaw& one : bed.others) {

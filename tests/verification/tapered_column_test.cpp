@@ -142,7 +142,7 @@ TEST_P(TaperedBed, CountsWhatEntersAndLeaves) {
   scene.inlet.superficial_velocity = {{0.0, 0.06}};
   const std::vector<double> low = rings ? std::vector{0.001} : std::vector{0.0115, 0.0115},
                             high = rings ? std::vector{0.008} : std::vector{0.017, 0.018};  // over cells that are cut
-  scene.feeds.push_back({"fine", core::FeedEnd::bottom, {{0.0, 0.004}}, 0.05, low, high});
+  scene.feeds.push_back({"fine", core::ColumnEnd::bottom, {{0.0, 0.004}}, 0.05, low, high});
   core::Timers timers;
   tfm::Model model(scene, timers);
   model.show(0);

@@ -26,7 +26,7 @@ struct Box {
   Box(const std::string& law, bool form_b)
       : scene(with_added_mass(law, form_b)),
         constants(constants_of(scene)),
-        boundaries(constants.grid, true),
+        boundaries(constants.grid, fluid::Ends::walls),
         fields(constants),
         effects(make_effects(scene, constants, boundaries, fields)) {
     for (core::Field& phi : fields.solids.fraction) fill(phi, 0.02, 0.3);

@@ -27,7 +27,7 @@ struct Shear {
   Shear(int dimensions, bool form_b)
       : scene(with_lift(dimensions, form_b)),
         constants(constants_of(scene)),
-        boundaries(constants.grid, true),
+        boundaries(constants.grid, fluid::Ends::walls),
         fields(constants),
         effects(make_effects(scene, constants, boundaries, fields)) {
     const core::Grid& grid = constants.grid;
