@@ -5,6 +5,7 @@ import re
 import program
 from feed_rules import FEEDS, feeds
 from layer_rules import COUNTED, LAYERS
+from resolve_rules import RESOLVED
 from wall_rules import ROUND, ROUND_FOR_ONE_MODEL, ROUND_OF_MODELS, WALLS
 from program import DONE, WRONG_CASE, Scratch, run, strict_json
 
@@ -43,7 +44,7 @@ def on(role, law=None):
 
 AIR, TILTED = ["fluid.name=air", "fluid.equation_of_state=ideal_gas"], "column.gravity_direction=[1,-1]"
 AT_TOP = ('inlet.at = "top"', "inlet.at=top")
-JOINED, SHEARED, FREE = "column.ends=periodic", "dem.shear_rate=1", ["resolve.motion=free", "resolve.voidage=[0.6]"]
+JOINED, SHEARED = "column.ends=periodic", "dem.shear_rate=1"
 FLOW = ["inlet.superficial_velocity=!", "inlet.flow_rate=1e-5"]
 SIZES = 'species=[{name="fine", density=1395, distribution="lognormal", median=1e-8, deviation=1}]'
 
@@ -149,20 +150,7 @@ KEYS = {
     "calibrate.share: both species have to be there, above 0 and below 1": ["calibrate.share=[0, 0.5]"],
     'calibrate.share cannot act: the fluidised boxes of calibrate.regime = "bed" have one size': [
         "calibrate.share=[0.3]", "calibrate.regime=bed"],
-    "resolve.spheres = {} leaves none of species '{}': take more": [
-        *species("fine", "rare")[:1], "bed.volume_share=[0.999999, 1e-6]", "resolve.voidage=[0.6]"],
-    "resolve.reynolds = {} at a voidage of {}: the viscosity would be {} in cells and steps, stable from {}; take "
-    "resolve.cells_per_diameter = {} or more, or fewer resolve.grids": ["resolve.voidage=[0.6]", "resolve.reynolds=[300]"],
-    "resolve.cells_per_diameter = {}: the pores are {} cells wide on the coarsest grid at a voidage of {}, they need {}; take {} or more, "
-    "or fewer resolve.grids": ["resolve.voidage=[0.35]", "resolve.cells_per_diameter=6"],
-    "resolve.spheres = {}: at a voidage of {} the box is {} of the largest diameters wide; free spheres need {}, so that none touches another "
-    "and its image: take {} or more": [*FREE, "resolve.spheres=2"],
-    'resolve.motion = "{}": {}; leave out resolve.reynolds': ["resolve.motion=moving", "resolve.reynolds=[5]"],
-    'resolve.motion = "free" needs {}': ["resolve.motion=free", "column.gravity=0"],
-    "resolve.motion = \"free\": species '{}' is {} times as dense as the fluid; drag acts on free spheres one step late, which is stable "
-    "from {} times on": [*FREE, "species.fine.density=1050"],
-    "resolve.cells_per_diameter = {}: free spheres at a voidage of {} would fall at a viscosity of {} in cells and steps, stable from {}; take "
-    "{} or more, or fewer resolve.grids": [*FREE, "species.fine.density=9000"],
+    **RESOLVED,
     'calibrate.regime = "{}" needs a fluid: fluid.name is "none"': [DRY, "calibrate.regime=wet"],
 }
 

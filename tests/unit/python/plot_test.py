@@ -235,12 +235,6 @@ class AroundAxis(SampleRun):
         np.testing.assert_array_equal(np.flatnonzero(shown.mask.all(axis=0)), [0, 35])
         self.assertTrue(beds.maps_of(self.sample))
 
-    def test_a_film_keeps_both_sides(self):
-        animation.film(self.sample, self.directory / "film.gif")
-        self.assertTrue((self.directory / "film.gif").exists())
-        _, _, show = animation.field_frames(self.sample)
-        show(4)
-
 
 class Whole3D(Whole):
     kind = 3
