@@ -98,7 +98,7 @@ class Ranks(Scratch):
     def test_a_tapered_bed_is_the_same(self):
         """Cells that the wall closes lie on both sides of every cut."""
         case = CASE.parents[1] / "templates/tapered-bed/case.toml"
-        self.check_equal("--set", "column.cells=[12,60]", *FIXED, case=case)
+        self.check_equal("--set", "column.cells=[12,60]", *FIXED, "--set", "tfm.fixed_step=2e-4", "--set", "run.until=0.02", case=case)
 
     def test_a_dam_in_layers_is_the_same(self):
         """Its faces lie inside cells, and cuts between ranks inside the dam."""
