@@ -194,7 +194,7 @@ double lift_of(const core::Grid& grid, const core::Field& pressure, bool to_the_
 }
 
 // A bed of the coarse that the fluid carries through a cone: bottom and wall press upwards with what the solids weigh,
-// through the fluid and, where they are packed above, the solids. The rest, 0.5 %, is the momentum of what goes round.
+// through the fluid and, where they are packed above, the solids. The rest, 1.5 %, is the momentum of what goes round.
 TEST(TaperedColumn, CarriesABedWithThePressureOfItsWall) {
   core::Scene scene = bed_in(cone, ColumnShape::axisymmetric);
   scene.species.erase(scene.species.begin());
