@@ -98,8 +98,11 @@ void Model::fill_state(const core::Scene& scene) {
     std::fill(fields.fluid.flux[1].begin() + begin, fields.fluid.flux[1].begin() + end, inflow);
   });
   core::Field even = core::make_field(grid);  // what flows in before the jets have their own velocities
-  fluid::for_each_boundary_row(
-      grid, 1, 0, [&](Index begin, Index end) { std::fill(even.begin() + begin, even.begin() + end, inflow); });
+  for (const int side : {0, 1}) {
+    if (side == 1 && boundaries().has_outlet()) continue;
+    fluid::for_each_boundary_row(
+        grid, 1, side, [&](Index begin, Index end) { std::fill(even.begin() + begin, even.begin() + end, inflow); });
+  }
   y_.resize(layout_.size());
   dydt_.assign(layout_.size(), 0.0);
   layout_.pack(fields.solids, fields.fluid, y_);

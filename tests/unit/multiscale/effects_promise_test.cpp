@@ -85,7 +85,8 @@ TEST(Neglected, WeighsWhatIsMet) {
     met.weight = weight;
     neglected.see(met);
   }
-  met.vorticity = {0, 0, 500};
+  met.slip = {0, 0.02, 0};
+  met.vorticity = {0, 0, 500};  // a lift of 9 % of the weight by Saffman's law
   met.weight = 400;
   neglected.see(met);
   EXPECT_EQ(neglected.sum().count, 2400U);
