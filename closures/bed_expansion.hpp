@@ -25,7 +25,7 @@ template <class Drag>
 template <class Drag>
 [[nodiscard]] double carried_voidage(Drag&& f, const CarriedBed& bed, double velocity, double packed) {
   double low = packed, high = 1 - 1e-6;
-  if (!is_carried(f, bed, low, velocity)) return packed;
+  if (!(velocity > 0) || !is_carried(f, bed, low, velocity)) return packed;
   if (is_carried(f, bed, high, velocity)) return 1;
   for (int n = 0; n < 50; ++n) {
     const double middle = 0.5 * (low + high);

@@ -102,7 +102,8 @@ std::vector<double> face_shares(const core::Grid& grid, const std::vector<double
 
 Inlet::Inlet(const core::Grid& grid, const core::Scene& scene) : grid_(grid) {
   if (scene.column.closed) return;
-  at_top_ = scene.inlet.at == core::ColumnEnd::top;
+  if (scene.inlet.at == core::ColumnEnd::top)
+    above_ = core::open_faces_below(grid, 0) / core::open_faces_below(grid, grid.column_cells(1));
   const std::size_t faces = std::size_t(grid.cells[0]) * std::size_t(grid.cells[2]);
   parts_.push_back({Ramp(scene.inlet.superficial_velocity), std::vector<double>(faces, 1.0), 1});
   for (const core::Jet& jet : scene.jets) {
@@ -137,11 +138,11 @@ void Inlet::set(core::Field& faces, Value&& value) const {
       for (const Part& part : parts_) faces[std::size_t(c)] += part.share[face] * value(part.ramp);
     }
   });
-  if (!at_top_) return;
-  double mean = 0;
-  for (const Part& part : parts_) mean += part.mean_share * value(part.ramp);
+  if (above_ == 0) return;
+  double even = 0;
+  for (const Part& part : parts_) even += above_ * part.mean_share * value(part.ramp);
   for_each_boundary_row(grid_, 1, 1,
-                        [&](Index begin, Index end) { std::fill(faces.begin() + begin, faces.begin() + end, mean); });
+                        [&](Index begin, Index end) { std::fill(faces.begin() + begin, faces.begin() + end, even); });
 }
 
 void Inlet::set_velocity(double t, core::Field& flux) const {

@@ -74,7 +74,7 @@ class Inlet {
 
   core::Grid grid_;
   std::vector<Part> parts_;  ///< the distributor first
-  bool at_top_ = false;
+  double above_ = 0;         ///< what is even over the top, over the mean of the bottom; 0: not given there
 };
 
 }  // namespace polybed::fluid

@@ -11,6 +11,7 @@
 #include "core/numerics/metric.hpp"
 #include "core/numerics/ranks.hpp"
 #include "tfm/model.hpp"
+#include "tfm/parts.hpp"
 
 namespace polybed::tfm {
 
@@ -116,11 +117,29 @@ void clear_closed(const core::Grid& grid, const StateLayout& layout, std::span<d
   }
 }
 
+/// The flux of a state through the ends at which that is given; 0 elsewhere.
+core::Field flux_at_ends(const core::Grid& grid, const fluid::Boundaries& boundaries, const StateLayout& layout,
+                         std::span<const double> y) {
+  core::Field flux = core::make_field(grid), at_ends = flux;
+  for (const StateLayout::Entry& entry : layout.entries())
+    if (entry.kind == StateLayout::Entry::Kind::flux && entry.axis == 1) layout.unpack(entry, y, flux);
+  for (const int side : {0, 1}) {
+    if (side == 1 && boundaries.has_outlet()) continue;
+    fluid::for_each_boundary_row(grid, 1, side, [&](core::Index begin, core::Index end) {
+      std::copy(flux.begin() + begin, flux.begin() + end, at_ends.begin() + begin);
+    });
+  }
+  return at_ends;
+}
+
 }  // namespace
 
 void Model::start_from(const core::Checkpoint& checkpoint) {
   resume(checkpoint);
   clear_closed(constants().grid, layout_, y_);
+  if (!layout_.with_pressure())  // what flows in now may be another than it was; a compressible fluid follows by sound
+    project_jump(equations_, layout_, velocity_scale_, 0, flux_at_ends(constants().grid, boundaries(), layout_, y_),
+                 y_);
   time_ = step_ = 0;
   before_ = {};
   for (const StateLayout::Entry& entry : layout_.entries())

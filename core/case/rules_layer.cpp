@@ -38,7 +38,7 @@ Broken shares_otherwise(const Scene& scene) {
 
 Broken height_otherwise(const Scene& scene) {
   if (scene.layers.empty()) return {};
-  const double height = totals_of_layers(scene).solids / scene.bed.solids_fraction;
+  const double height = scene.column.filled_height(totals_of_layers(scene).solids / scene.bed.solids_fraction);
   return broken_if(!(std::abs(scene.bed.static_height - height) <= 1e-9 * height));
 }
 

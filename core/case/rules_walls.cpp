@@ -44,8 +44,12 @@ Broken column_too_narrow(const Scene& scene) {
 
 bool is_uneven(double a, double b) { return std::abs(a - b) > 1e-9 * std::abs(b); }
 
+/// More pairs at one height than a step has, or a step at an end.
 Broken profile_unsteady(const Scene& scene) {
   const auto& profile = scene.column.profile;
+  for (const std::size_t n : {std::size_t(1), profile.size() - 1})
+    if (profile.size() > 1 && profile[n - 1].first == profile[n].first)
+      return Broken({fmt::format("{:.4g}", profile[n].first)});
   for (std::size_t n = 2; n < profile.size(); ++n)
     if (profile[n - 2].first == profile[n].first) return Broken({fmt::format("{:.4g}", profile[n].first)});
   return {};
@@ -146,7 +150,10 @@ std::vector<Rule> profile_rules() {
        "column.profile goes from {} to {} m: from 0 to the height of the column, {} m",
        profile_of_another_height,
        true},
-      {{"column.profile"}, "column.profile: three pairs at {} m; a step has two", profile_unsteady, true},
+      {{"column.profile"},
+       "column.profile: too many pairs at {} m: a step inside has two, each end has one",
+       profile_unsteady,
+       true},
       {{"column.profile", "column.size", "column.shape"},
        "column.profile is {} m in diameter where it is widest, column.size {} m: make them equal",
        profile_of_another_width,

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "core/numerics/metric.hpp"
 #include "core/numerics/ranks.hpp"
 
 namespace polybed::core {
@@ -88,28 +89,49 @@ bool leaves_constant_open(const Grid& grid, const std::array<std::span<const dou
   return on_all_ranks(grid, open);
 }
 
-double pin_of_first_cell(const Grid& grid, const std::array<std::span<const double>, 3>& coefficient,
-                         std::span<const double> shift) {
+namespace {
+
+/// In this block; nothing if another has it.
+std::optional<std::array<int, 3>> place_of_pin(const Grid& grid) {
+  std::array<int, 3> place{};
+  if (grid.metric && !grid.metric->around_axis)
+    for (const int axis : {0, 2}) place[std::size_t(axis)] = grid.column_cells(axis) / 2;
+  for (std::size_t a = 0; a < 3; ++a) {
+    place[a] -= grid.before[a];
+    if (place[a] < 0 || place[a] >= grid.cells[a]) return std::nullopt;
+  }
+  return place;
+}
+
+}  // namespace
+
+std::optional<Pin> pin_of(const Grid& grid, const std::array<std::span<const double>, 3>& coefficient,
+                          std::span<const double> shift) {
   const bool open = leaves_constant_open(grid, coefficient, shift);
-  if (!open || grid.before != std::array<int, 3>{0, 0, 0}) return 0;
-  const Index cell = grid.index(0, 0);
+  const auto place = place_of_pin(grid);
+  if (!open || !place) return std::nullopt;
+  const Index cell = grid.index((*place)[0], (*place)[1], (*place)[2]);
   double diagonal = 0;
   for (int d = 0; d < grid.dimensions; ++d) {
     const auto a = std::size_t(d);
     diagonal += (coefficient[a][std::size_t(cell)] + coefficient[a][std::size_t(cell + grid.stride(d))]) /
                 (grid.spacing[a] * grid.spacing[a]);
   }
-  return diagonal;
+  return Pin{cell, diagonal};
 }
 
 bool solve_directly(const Grid& grid, const std::array<std::span<const double>, 3>& coefficient,
                     std::span<const double> shift, const Field& source, Field& p) {
-  const bool pinned = leaves_constant_open(grid, coefficient, shift);
+  const std::optional<Pin> pin = pin_of(grid, coefficient, shift);
+  Index pinned = -1;  // among the packed cells
   std::vector<Eigen::Triplet<double>> entries;
   Eigen::VectorXd right(Eigen::Index(grid.cell_count()));
+  for_each_cell(grid, [&](const std::array<int, 3>&, Index packed, Index at) {
+    if (pin && at == pin->cell) pinned = packed;
+  });
   for_each_cell(grid, [&](const std::array<int, 3>& cell, Index packed, Index at) {
     const auto c = std::size_t(at);
-    right[packed] = source[c];
+    right[packed] = packed == pinned ? 0 : source[c];
     double diagonal = shift.empty() ? 0.0 : shift[c];
     for (int d = 0; d < grid.dimensions; ++d) {
       const auto a = std::size_t(d);
@@ -118,12 +140,11 @@ bool solve_directly(const Grid& grid, const std::array<std::span<const double>, 
         const double value = w * coefficient[a][c + std::size_t(side * grid.stride(d))];
         const Index n = packed_neighbour(grid, cell, d, side == 0 ? -1 : 1);
         diagonal += value;
-        if (n >= 0 && !(pinned && (n == 0 || packed == 0))) entries.emplace_back(int(packed), int(n), -value);
+        if (n >= 0 && n != pinned && packed != pinned) entries.emplace_back(int(packed), int(n), -value);
       }
     }
     entries.emplace_back(int(packed), int(packed), diagonal);
   });
-  if (pinned) right[0] = 0;
   Eigen::SparseMatrix<double> matrix(right.size(), right.size());
   matrix.setFromTriplets(entries.begin(), entries.end());
   const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(matrix);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <span>
 
 #include "core/numerics/halo.hpp"
@@ -18,14 +19,21 @@ namespace polybed::core {
 [[nodiscard]] bool leaves_constant_open(const Grid& grid, const std::array<std::span<const double>, 3>& coefficient,
                                         std::span<const double> shift);
 
+/// A cell of this block in which an open constant is held, and what is added to its diagonal.
+struct Pin {
+  Index cell;
+  double diagonal;
+};
+
 /// Where a constant is left open, multigrid would meet a singular coarsest matrix: a diagonal of the usual size, to be
-/// added in the column's first cell, makes the unknown vanish there and changes nothing else, as sources sum to zero.
-/// 0 where nothing is open and on the other ranks. Collective.
-[[nodiscard]] double pin_of_first_cell(const Grid& grid, const std::array<std::span<const double>, 3>& coefficient,
-                                       std::span<const double> shift);
+/// added in one cell, makes the unknown vanish there and changes nothing else, as sources sum to zero. The cell is the
+/// column's first, or in the middle of the bottom where a round wall closes corners. Nothing where no constant is open
+/// and on the other ranks. Collective.
+[[nodiscard]] std::optional<Pin> pin_of(const Grid& grid, const std::array<std::span<const double>, 3>& coefficient,
+                                        std::span<const double> shift);
 
 /// Solves by a sparse factorisation (Eigen's LDLT); false if the matrix is not positive definite. Where a
-/// constant is left open the first cell is pinned to 0. For a column on one rank.
+/// constant is left open the cell of pin_of() has 0. For a column on one rank.
 bool solve_directly(const Grid& grid, const std::array<std::span<const double>, 3>& coefficient,
                     std::span<const double> shift, const Field& source, Field& p);
 

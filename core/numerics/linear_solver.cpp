@@ -264,9 +264,9 @@ PoissonResult PoissonSolver::solve(const FaceSpans& coefficient, std::span<const
     balanced_ = given_source;
     remove_mean(grid_, balanced_, owned_);
     pinned_.assign(grid_.padded_size(), 0.0);
-    double& first = pinned_[std::size_t(grid_.index(0, 0))];
-    first = pin_of_first_cell(grid_, coefficient, shift);
-    subtract(grid_, sum_of_ranks(grid_, first > 0 ? p[std::size_t(grid_.index(0, 0))] : 0), p);
+    const std::optional<Pin> pin = pin_of(grid_, coefficient, shift);
+    if (pin) pinned_[std::size_t(pin->cell)] = pin->diagonal;
+    subtract(grid_, sum_of_ranks(grid_, pin ? p[std::size_t(pin->cell)] : 0), p);
   }
   const std::span<const double> diagonal = constant_open ? std::span<const double>(pinned_) : shift;
   const Field& source = constant_open ? balanced_ : given_source;

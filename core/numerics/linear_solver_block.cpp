@@ -118,8 +118,8 @@ bool BlockSolver::setup(const FaceSpans& c11, const FaceSpans& c12, const FaceSp
   std::fill(pinned_.begin(), pinned_.end(), 0.0);
   if (!diagonal_p.empty())
     pinned_ = diagonal_p;
-  else
-    pinned_[std::size_t(grid_.index(0, 0))] = pin_of_first_cell(grid_, c11, {});
+  else if (const std::optional<Pin> pin = pin_of(grid_, c11, {}))
+    pinned_[std::size_t(pin->cell)] = pin->diagonal;
   const bool fine = of_p_->setup(c11, pinned_);
   return of_q_->setup({rest_[0], rest_[1], rest_[2]}, own_) && fine;
 }

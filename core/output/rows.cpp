@@ -77,7 +77,10 @@ std::string kept_rows(const std::filesystem::path& path, const std::string& head
   if (!time || !std::filesystem::exists(path)) return header;
   const std::string text = read_text(path);
   if (text.find('\n') == std::string::npos) return header;
-  if (!text.starts_with(header)) throw FileError(path.string() + " has other columns: it cannot be continued");
+  if (!text.starts_with(header))
+    throw FileError(path.string() +
+                    " has other columns: an earlier build wrote it: run again, or begin from its checkpoint with "
+                    "bed.start = \"checkpoint:FILE\"");
   std::string kept = header;
   see_rows(text, path, [&](const auto& cells, std::string_view line) {
     if (*finite_number(cells.front()) <= *time) kept.append(line).push_back('\n');

@@ -38,7 +38,7 @@ WALLS = {
     "column.cells: {} cells across and {} deep in a round column: at most four times as many one way": [*ROUND, "column.cells=[1, 6, 20]"],
     'column.profile is for round columns: use column.shape = "axisymmetric" or "cylinder"': TAPERED[1:],
     "column.profile goes from {} to {} m: from 0 to the height of the column, {} m": tapered((0, 0.06), (0.1, 0.12)),
-    "column.profile: three pairs at {} m; a step has two": tapered((0, 0.06), (0.1, 0.06), (0.1, 0.08), (0.1, 0.12), (0.2, 0.12)),
+    "column.profile: too many pairs at {} m: a step inside has two, each end has one": tapered((0, 0.06), (0.1, 0.06), (0.1, 0.08), (0.1, 0.12), (0.2, 0.12)),
     "column.profile is {} m in diameter where it is widest, column.size {} m: make them equal": tapered((0, 0.06), (0.2, 0.1)),
     'column.profile and bed.start = "random" cannot be combined yet: particles would be placed beside the narrow part; use "mixed"': [
         *CONE, "bed.start=random"],

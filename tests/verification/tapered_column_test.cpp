@@ -119,8 +119,10 @@ TEST_P(TaperedBed, RestsWhereItHasSettled) {
 // Fluid alone, as much through every level as through the bottom, and evenly where the tube is even again: to what the
 // pressure's solver leaves, 1e-10 of its source, after some 1e2 steps.
 TEST_P(TaperedBed, LetsAsMuchFluidThroughEveryLevel) {
-  for (const core::Taper& profile : {cone, steps}) {
+  using enum core::ColumnEnd;
+  for (const auto& [profile, at] : {std::pair{cone, bottom}, std::pair{steps, bottom}, std::pair{cone, top}}) {
     core::Scene scene = TaperedBed::scene(profile);
+    scene.inlet.at = at;
     scene.bed.static_height = 0;
     scene.effects["fluid_stress"] = "newtonian";
     const Finished run(scene, 0.2);
