@@ -129,6 +129,8 @@ void CaseRun::run_to_end() {
 }
 
 void CaseRun::go() {
+  // The run before has ended so.
+  if (is_over()) return;
   constexpr double longest = 20;  // times run.until
   const double until = options_.until_steady() ? longest * scene_.run.until : scene_.run.until;
   core::Progress progress(options_.quiet, simulation().time(), until);
@@ -301,7 +303,7 @@ void CaseRun::print_end(const std::string& record) {
               card_line("run", fmt::format("{}, {:.4g} s of {} in {}", state, simulation().time(), model_name_,
                                            directory_.string())));
   for (const std::string& line : result_lines(card_)) core::print(stderr, "{}\n", line);
-  if (!card_.seen.steady || *card_.seen.steady) return;
+  if (!card_.seen.steady || *card_.seen.steady || is_over()) return;
   const bool ended = !core::is_later(scene_.run.until, simulation().time());
   const double until = (ended ? 2 : 1) * scene_.run.until;
   core::print(stderr, "{}\n",

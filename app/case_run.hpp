@@ -66,7 +66,7 @@ class CaseRun {
   virtual void keep_last_state() {}
   /// After each step: false if the user wants to stop.
   [[nodiscard]] virtual bool after_step() { return !stop_wanted(); }
-  /// Whether nothing is left to simulate. Collective.
+  /// Whether nothing is left to simulate; the same on all ranks.
   [[nodiscard]] virtual bool is_over() { return false; }
   [[nodiscard]] virtual std::vector<double> breakpoints() { return {}; }
   /// What limited the step so far; empty: no step yet.

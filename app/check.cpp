@@ -101,7 +101,7 @@ struct Inflow {
 std::vector<Inflow> inflows_of(const core::Scene& scene) {
   const auto greatest = [](const auto& points) { return fluid::Ramp(points).greatest(); };
   std::vector<Inflow> inflows{
-      {"the inlet", greatest(scene.inlet.superficial_velocity),
+      {"the inlet", least_velocity(scene.column, greatest(scene.inlet.superficial_velocity)),
        std::string("it will be carried to the top") + (scene.column.outlet == core::Outlet::open ? ", and out" : "")}};
   for (std::size_t n = 0; n < scene.jets.size(); ++n)
     inflows.push_back({fmt::format("jet {}", n + 1), greatest(scene.jets[n].superficial_velocity),
@@ -129,7 +129,7 @@ Derived derive(const core::Scene& scene, const tfm::Model& model) {
     derived.terminal.push_back(tfm::terminal_velocity(constants, j));
     derived.reynolds.push_back(constants.fluid.density * fastest * constants.diameter[j] / constants.fluid.viscosity);
     for (const Inflow& inflow : inflows)
-      if (inflow.velocity > derived.terminal[j])
+      if (scene.bed.volume_share[j] > 0 && inflow.velocity > derived.terminal[j])
         derived.notes.push_back(fmt::format("{}'s {:.4g} m/s is above the terminal velocity of {}, {:.3g} m/s: {}",
                                             inflow.name, inflow.velocity, constants.name[j], derived.terminal[j],
                                             inflow.fate));
@@ -137,6 +137,13 @@ Derived derive(const core::Scene& scene, const tfm::Model& model) {
   note_drag(scene, derived);
   note_roles_of_particles(scene, derived);
   return derived;
+}
+
+/// \param weight  of the bed in the fluid, Pa
+std::string weight_text(const core::Scene& scene, double weight) {
+  const char* is = weight < 0 ? "upwards in the fluid" : "in the fluid: the pressure drop of the fluidised bed";
+  if (scene.column.is_tapered()) is = "in the fluid, settled; less once it expands into a wider part";
+  return fmt::format("{:.4g} Pa {}", std::abs(weight), is);
 }
 
 core::Json json_of(const BedState& bed) {
@@ -368,8 +375,7 @@ void run_check(const RunOptions& options) {
   }
   if (options.details) return print_details(scene, derived, need, particles);
   std::vector<std::string> lines = expectation_lines(scene, bed_of_case(scene));
-  lines.push_back(card_line(
-      "weight", fmt::format("{:.4g} Pa in the fluid: the pressure drop of the fluidised bed", derived.weight)));
+  if (derived.weight != 0) lines.push_back(card_line("weight", weight_text(scene, derived.weight)));
   add_continuum(scene, need, lines);
   if (particles) add_particles(scene, *particles, lines);
   for (const std::string& model : models) add_left_out(scene, model, lines);

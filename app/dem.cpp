@@ -74,12 +74,14 @@ class DemRun final : public CaseRun {
     core::Json past = {{"invariants", observers_->invariants().past()}, {"work", core::Json::object()}};
     for (const auto& [name, counter] : counters_) past["work"][name] = work.*counter;
     if (monitor_) past["monitor"] = monitor_->past(ranks_.get());
+    past["emptied"] = emptied_;
     return past;
   }
 
   void recall_from(const core::Json& past) {
     observers_->recall(core::member_of(past, "invariants"));
     if (monitor_ && past.contains("monitor")) monitor_->recall(past["monitor"], ranks_.get());
+    emptied_ = past.contains("emptied") && past["emptied"] == true;
     // What this process has counted so far, the one before has counted. Unsigned numbers come right again.
     const core::Json& before = core::member_of(past, "work");
     const dem::Work here = model_.work();
@@ -196,6 +198,7 @@ class DemRun final : public CaseRun {
     if (promise) write_neglected(json, *promise);
     core::Json& warnings = json["warnings"] = exceeded_lines(watched);
     for (const std::string& line : warnings_before()) warnings.push_back(line);
+    if (emptied_) warnings.push_back(fmt::format("ended after {:.4g} s: all particles have left", model_.time()));
     if (const std::string line = feed_warning(); !line.empty()) warnings.push_back(line);
     for (const std::string& line : scene_warnings(scene_)) warnings.push_back(line);
     if (const std::string line = called_for_line(left_out_); !line.empty()) warnings.push_back(line);

@@ -175,11 +175,27 @@ core::Json means_of_series(const core::Json& asked) {
   return found;
 }
 
+/// Where a window ends in a run, s. Throws CaseError where it would begin at that time or later.
+double end_of(const measures::Window& window, const StoredRun& run, const std::string& folder) {
+  const Numbers& time = run.history.of("time_s");
+  const double last = time.empty() ? 0 : time.back(), end = std::min(window.end, last);
+  if (window.begin < end || window.begin == 0) return end;
+  throw core::CaseError(window.begin < last ? fmt::format("--end {:g} is not after --begin {:g}", end, window.begin)
+                                            : fmt::format("--begin {:g}: the run in {} ends at {:g} s: begin earlier",
+                                                          window.begin, folder, last));
+}
+
+void require_history(const StoredRun& run, const std::string& folder) {
+  if (run.history.columns.empty()) throw core::FileError(folder + ": no history.csv, of which means are taken");
+}
+
 /// Adds the window of the means, the means of the run, and those of the other run with the distances from it. A window
 /// is of the time that both have, unless only its begin is given: then each run is measured to its own end.
 void add_means(core::Json& json, const MeasureOptions& options, const StoredRun& run, const StoredRun* beside) {
   std::vector<const StoredRun*> runs{&run};
   if (beside != nullptr) runs.push_back(beside);
+  if (options.begin || beside != nullptr) require_history(run, options.run);
+  if (beside != nullptr) require_history(*beside, options.beside);
   measures::Window window{options.begin.value_or(0), options.end.value_or(std::numeric_limits<double>::infinity())};
   try {
     if (!options.begin) window = measures::common_window(runs);
@@ -188,13 +204,13 @@ void add_means(core::Json& json, const MeasureOptions& options, const StoredRun&
     json["in_window"] = nullptr;
     return;
   }
-  double end = window.end;
-  for (const StoredRun* one : runs)
-    end = std::min(end, one->history.of("time_s").empty() ? 0 : one->history.of("time_s").back());
+  const double end = end_of(window, run, options.run);
   json["window"] = {{"begin_s", window.begin}, {"end_s", end}, {"shortened", window.shortened}};
   json["in_window"] = json_of(run, measures::in_window(run, window, options.slabs));
   if (beside == nullptr) return;
+  const double end_beside = end_of(window, *beside, options.beside);
   json["beside"] = json_of(*beside, measures::in_window(*beside, window, options.slabs));
+  json["beside"]["end_s"] = end_beside;
   json["distances"] = json_of(measures::distances(run, *beside, window, options.slabs), false);
 }
 

@@ -55,11 +55,17 @@ core::Scene read_boxes(const ResolveOptions& options) {
                                                           : scene;
 }
 
+/// \param free  the Reynolds number follows
+std::string point_text(double voidage, double reynolds, bool free) {
+  return fmt::format("eps {:g}", voidage) + (free ? "" : fmt::format(", Re {:g}", reynolds));
+}
+
 /// Rows of the points, from the rate that the coarsest box of the first one reaches on one core.
 void estimate_resolve(const ResolveOptions& options) {
   const core::Scene scene = read_boxes(options);
   const core::Resolve& plan = scene.resolve;
   const ResolvePoint first{plan.voidage[0], plan.reynolds[0], 0, plan.grids - 1};
+  const bool free = plan.motion == core::SphereMotion::free;
   const double rate = measured_rate(scene, first, sphere_packing(scene, first.voidage, scene.bed.seed));
   core::Json points = core::Json::array();
   double all = 0, most = 0;
@@ -71,9 +77,10 @@ void estimate_resolve(const ResolveOptions& options) {
         seconds += plan.packings * double(passed(scene).size()) * need.sites * need.steps / rate;
         bytes = std::max(bytes, need.bytes);
       }
-      points.push_back({{"eps", voidage}, {"Re", reynolds}, {"time_s", seconds}, {"memory_bytes", bytes}});
+      points.push_back({{"eps", voidage}, {"time_s", seconds}, {"memory_bytes", bytes}});
+      if (!free) points.back()["Re"] = reynolds;
       if (!options.json)
-        core::print("eps {:g}, Re {:g}: {}, {:.3g} MB\n", voidage, reynolds, core::duration_text(seconds),
+        core::print("{}: {}, {:.3g} MB\n", point_text(voidage, reynolds, free), core::duration_text(seconds),
                     1e-6 * bytes);
       all += seconds;
       most = std::max(most, bytes);
@@ -256,8 +263,9 @@ class ResolveRun {
   }
 
   [[nodiscard]] std::string place_of(const ResolvePoint& point) const {
-    return fmt::format("eps {:g}, Re {:g}, packing {} of {}, {:.3g} cells per diameter", point.voidage, point.reynolds,
-                       point.packing + 1, scene_.resolve.packings, cells_of(scene_.resolve, point.grid)) +
+    return fmt::format("{}, packing {} of {}, {:.3g} cells per diameter",
+                       point_text(point.voidage, point.reynolds, free_), point.packing + 1, scene_.resolve.packings,
+                       cells_of(scene_.resolve, point.grid)) +
            (point.past < 0 ? "" : fmt::format(", past '{}'", scene_.species[std::size_t(point.past)].name));
   }
 

@@ -3,19 +3,21 @@
 namespace polybed::measures {
 
 std::vector<Kind> kinds_of(const std::vector<std::string>& species) {
-  std::vector<Kind> kinds, whole;
-  for (std::size_t j = 0; j < species.size(); ++j) {
-    kinds.push_back({species[j], {j}});
-    const std::string name = species[j].substr(0, species[j].rfind('.'));
-    const bool begins = species[j] == name + ".1",
-               goes_on = !whole.empty() && whole.back().name == name &&
-                         species[j] == name + "." + std::to_string(whole.back().members.size() + 1);
-    if (begins) whole.push_back({name, {}});
-    if (!begins && !goes_on) continue;
-    whole.back().members.push_back(j);
-    kinds.back().is_class = true;
+  std::vector<Kind> kinds;
+  for (std::size_t j = 0; j < species.size(); ++j) kinds.push_back({species[j], {j}});
+  const auto place = [&](const std::string& name) {
+    return std::size_t(std::find(species.begin(), species.end(), name) - species.begin());
+  };
+  for (const std::string& first : species) {
+    Kind whole{first.substr(0, first.rfind('.')), {}};
+    if (first != whole.name + ".1" || place(whole.name) < species.size()) continue;
+    for (std::size_t j = place(first); j < species.size();
+         j = place(whole.name + "." + std::to_string(whole.members.size() + 1)))
+      whole.members.push_back(j);
+    if (whole.members.size() < 2) continue;  // of one class the whole would be the same again
+    for (const std::size_t j : whole.members) kinds[j].is_class = true;
+    kinds.push_back(std::move(whole));
   }
-  kinds.insert(kinds.end(), whole.begin(), whole.end());
   return kinds;
 }
 

@@ -31,7 +31,8 @@ struct Kind {
   bool is_class = false;  ///< one size class of a species, which is a kind, too
 };
 
-/// Each species, then each that has size classes ("sand.1", "sand.2") as a whole ("sand").
+/// Each species, then each that has size classes ("sand.1", "sand.2") as a whole ("sand"). A case that names a species
+/// "sand" itself has no classes of it.
 [[nodiscard]] std::vector<Kind> kinds_of(const std::vector<std::string>& species);
 
 /// Who reads a measure.

@@ -16,6 +16,9 @@ enum class Fluidisation { unknown, packed, fluidised, carried_up, carried_out };
 [[nodiscard]] Fluidisation carried(const core::Scene& scene);
 [[nodiscard]] bool is_carried(Fluidisation state);
 
+/// Of the velocities between bottom and top that one at the bottom gives: where the column is widest.
+[[nodiscard]] double least_velocity(const core::Column& column, double velocity);
+
 /// As run.json has it; empty if unknown.
 [[nodiscard]] std::string name_of(Fluidisation state);
 
@@ -33,6 +36,7 @@ struct ExpectedDischarge {
   double rate;       ///< kg/s; 0: the opening is too narrow for the correlation
   double mass;       ///< of all particles, kg
   double diameters;  ///< width of the opening over the mean diameter
+  bool flat;         ///< the bottom round it: it keeps what lies in its corners
 };
 
 /// What one drag law makes of the bed.

@@ -62,12 +62,24 @@ bool matters(const LeftOut& left_out) { return left_out.sum > left_out.promise; 
 
 // ---- words
 
+/// By what a quantity is multiplied, and the prefix for it.
+std::pair<double, const char*> prefix_of(double value) {
+  const double size = std::abs(value);
+  if (size >= 1 || size == 0) return {1, ""};
+  return size >= 1e-3 ? std::pair(1e3, "m") : std::pair(1e6, "µ");
+}
+
 /// A quantity with the prefix that gives it one to three digits before the point.
 std::string with_prefix(double value, const char* unit) {
-  const double size = std::abs(value);
-  if (size >= 1 || size == 0) return fmt::format("{:.3g} {}", value, unit);
-  if (size >= 1e-3) return fmt::format("{:.3g} m{}", 1e3 * value, unit);
-  return fmt::format("{:.3g} µ{}", 1e6 * value, unit);
+  const auto [factor, prefix] = prefix_of(value);
+  return fmt::format("{:.3g} {}{}", factor * value, prefix, unit);
+}
+
+/// Two of them, with the prefix of the greater; one if they read alike.
+std::string range_text(double low, double high, const char* unit) {
+  const auto [factor, prefix] = prefix_of(high);
+  const std::string least = fmt::format("{:.3g}", factor * low), greatest = fmt::format("{:.3g}", factor * high);
+  return fmt::format("{}{} {}{}", least == greatest ? "" : least + " to ", greatest, prefix, unit);
 }
 
 std::string one_digit(double value) {
@@ -102,23 +114,32 @@ std::string of_species(const BedOfCase& bed, std::optional<double> SpeciesInFlui
 }
 
 /// The range of the laws that were made from such beds, and which they are; empty without any.
-std::string by_others(const BedOfCase& bed, std::optional<double> ByLaw::*number, double scale, const char* unit,
-                      double most) {
+/// \param most  of the numbers: the column's height, beyond which lies what a law gives no number for
+std::string by_others(const BedOfCase& bed, std::optional<double> ByLaw::*number, const char* unit,
+                      std::optional<double> most) {
   std::vector<std::string> names;
   double low = HUGE_VAL, high = 0;
   for (const ByLaw& one : bed.others) {
-    if (!(one.*number)) continue;
+    const std::optional<double> value = one.*number ? one.*number : most;
+    if (!value) continue;
     names.push_back(one.law);
-    low = std::min(low, scale * *(one.*number));
-    high = std::max(high, scale * *(one.*number));
+    low = std::min(low, *value);
+    high = std::max(high, *value);
   }
   if (names.empty()) return "";
-  const std::string range = high < most ? fmt::format("{:.3g} to {:.3g}{}", low, high, unit)
-                                        : fmt::format("{:.3g}{} up to the top of the column", low, unit);
-  return fmt::format("{} by laws of such beds: {}", low < most ? range : "up to the top of the column", each(names));
+  std::string range = range_text(low, high, unit);
+  if (most && high >= *most)
+    range = (low < *most ? with_prefix(low, unit) + " " : std::string()) + "up to the top of the column";
+  return fmt::format("{} by laws of such beds: {}", range, each(names));
 }
 
 std::string in_kilograms(double mass) { return with_prefix(1e3 * mass, "g"); }
+
+/// Two digits, more where two would say that nothing differs or stop before the point.
+std::string times_text(double ratio) {
+  if (ratio >= 100) return fmt::format("{:.0f}", ratio);
+  return std::abs(ratio - 1) < 0.05 ? fmt::format("{:.3g}", ratio) : fmt::format("{:.2g}", ratio);
+}
 
 /// Minimum fluidisation, terminal velocities and, in a gas, Geldart's classes.
 void add_velocities(const BedOfCase& bed, std::vector<std::string>& lines) {
@@ -129,7 +150,7 @@ void add_velocities(const BedOfCase& bed, std::vector<std::string>& lines) {
     text += with_prefix(*bed.own.minimum_fluidisation, "m/s") + " by " +
             (bed.own.law.empty() ? "Wen and Yu's correlation" : bed.own.law);
     if (const auto ratio = bed.velocity_ratio())
-      text += fmt::format("; u = {} is {:.2g} times that", with_prefix(*bed.velocity, "m/s"), *ratio);
+      text += fmt::format("; u = {} is {} times that", with_prefix(*bed.velocity, "m/s"), times_text(*ratio));
     lines.push_back(card_line("fluidises at", text));
   }
   for (const auto& [heading, velocity] :
@@ -149,8 +170,8 @@ void add_discharge(const ExpectedDischarge& out, std::vector<std::string>& lines
   lines.push_back(
       card_line("expect", fmt::format("discharge of about {}/s; {} would be out after {:.2g} s", in_kilograms(out.rate),
                                       in_kilograms(out.mass), out.mass / out.rate)));
-  lines.push_back(
-      card_line("", "estimate by Beverloo's law, good to 30 %; a flat bottom keeps what lies in its corners"));
+  lines.push_back(card_line("", std::string("estimate by Beverloo's law, good to 30 %") +
+                                    (out.flat ? "; a flat bottom keeps what lies in its corners" : "")));
   if (out.diameters < closures::least_hopper_opening)
     lines.push_back(card_line("", fmt::format("{}: below {:g} it may block", width, closures::least_hopper_opening)));
 }
@@ -169,9 +190,9 @@ std::string out_text(const BedOfRun& bed) {
 /// How high the bed is, and how far up each species reaches where they part, or one is suspended above the others.
 std::string height_text(const BedOfRun& bed) {
   constexpr double above = 1.2;  // times the top of the dense bed
-  const bool suspended = bed.dense && std::any_of(bed.tops.begin(), bed.tops.end(), [&](const auto& top) {
-                           return top.second.mean > above * bed.dense->mean;
-                         });
+  const bool suspended = bed.state != Fluidisation::unknown && bed.dense &&
+                         std::any_of(bed.tops.begin(), bed.tops.end(),
+                                     [&](const auto& top) { return top.second.mean > above * bed.dense->mean; });
   std::string text =
       suspended ? "dense bed " + mean_text(*bed.dense, 1e3, " mm high") : mean_text(*bed.height, 1e3, " mm high");
   const bool part = bed.tops.size() > 1 && (bed.layers == Layers::layered || bed.layers == Layers::inverted);
@@ -298,13 +319,15 @@ std::vector<std::string> expectation_lines(const core::Scene& scene, const BedOf
       text += fmt::format("; lifted {}: {}", scene.column.outlet == core::Outlet::open ? "out" : "to the top",
                           each(bed.leaving));
     lines.push_back(card_line("expect", text));
-    if (const std::string others = by_others(bed, &ByLaw::height, 1e3, " mm", 1e3 * top); !others.empty())
-      lines.push_back(card_line("", others));
+    const std::string others = bed.own.height && bed.state == Fluidisation::fluidised
+                                   ? by_others(bed, &ByLaw::height, "m", top)
+                                   : std::string();
+    if (!others.empty()) lines.push_back(card_line("", others));
   }
   if (bed.discharge) add_discharge(*bed.discharge, lines);
   const std::size_t before = lines.size();
   add_velocities(bed, lines);
-  const std::string others = by_others(bed, &ByLaw::minimum_fluidisation, 1e3, " mm/s", HUGE_VAL);
+  const std::string others = by_others(bed, &ByLaw::minimum_fluidisation, "m/s", {});
   if (!others.empty()) lines.insert(lines.begin() + std::ptrdiff_t(before) + 1, card_line("", others));
   if (bed.rising_time) {
     constexpr double window = 0.75;  // of a run lies before the last quarter, over which its card judges

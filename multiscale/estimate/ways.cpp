@@ -3,7 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+
+#include "core/case/case_rules.hpp"
 
 namespace polybed::multiscale {
 
@@ -21,14 +24,41 @@ Way shorter(const core::Scene& scene) {
           "intervals of means 1.4 times as wide; too short if the bed still drifts then", "extrapolated"};
 }
 
-Way coarser(const core::Scene& scene, bool implicit) {
+/// Whether a round column may have its cells divided so across: where it is narrow, enough of them have to be open.
+bool takes_wider_cells(core::Scene scene, double ratio) {
+  for (const std::size_t axis : {0, 2}) scene.column.cells[axis] = std::max(int(scene.column.cells[axis] / ratio), 1);
+  return core::problems_of(core::wall_rules(), scene).empty();
+}
+
+void add_coarser(std::vector<Way>& ways, const core::Scene& scene, bool implicit) {
   // An explicit step follows the cells; an implicit one does not where free fall through a cell sets it.
   const int powers = scene.column.dimensions + (implicit ? 0 : 1);
   const double ratio = std::pow(2.0, 1.0 / powers);
-  return {fmt::format("column.cells divided by {:.2f}", ratio), 0.5,
-          fmt::format("error of the cell size {:.2f} times as large, if it is of first order as at a sharp interface",
-                      ratio),
-          "extrapolated"};
+  if (!takes_wider_cells(scene, ratio)) return;
+  ways.push_back({fmt::format("column.cells divided by {:.2f}", ratio), 0.5,
+                  fmt::format("error of the cell size {:.2f} times as large, if it is of first order as at a sharp "
+                              "interface",
+                              ratio),
+                  "extrapolated"});
+}
+
+/// Of a box two dimensions, of a round column rings, of these and of two dimensions one column of cells.
+void add_fewer_dimensions(std::vector<Way>& ways, const core::Scene& scene) {
+  const core::Column& column = scene.column;
+  const int across = column.cells[0], deep = column.cells[2];
+  const bool all_across = scene.jets.empty() && std::all_of(scene.feeds.begin(), scene.feeds.end(),
+                                                            [](const core::Feed& feed) { return feed.from.empty(); });
+  if (column.is_round() && all_across)
+    ways.push_back({fmt::format("column.shape = \"axisymmetric\", column.size = [radius, height], column.cells = "
+                                "[{}, {}]",
+                                (across + 1) / 2, column.cells[1]),
+                    0.5 / deep, "all is alike around the axis: bubbles and eddies are rings", "literature"});
+  else if (column.dimensions == 3 && !column.is_round())
+    ways.push_back({"two dimensions: column.size = [width, height]", 1.0 / deep,
+                    "bubbles and eddies are larger in two dimensions than in three", "literature"});
+  else if (column.dimensions == 2 && across > 1 && takes_wider_cells(scene, across))
+    ways.push_back({"column.cells = [1, ...]", 1.0 / across,
+                    "no motion across the bed: layers stay sharper than they are", "literature"});
 }
 
 std::vector<Way> first_ways(std::vector<Way> ways) {
@@ -48,14 +78,9 @@ std::vector<Way> tfm_ways(const core::Scene& scene, bool implicit, int ranks, in
   if (implicit && scene.tfm.rtol * factor <= loosest)
     ways.push_back({fmt::format("relative tolerance tfm.rtol = {:.2g}", factor * scene.tfm.rtol), 0.5,
                     "error of the time integration 8 times as large", "extrapolated"});
-  ways.push_back(coarser(scene, implicit));
+  add_coarser(ways, scene, implicit);
   ways.push_back(shorter(scene));
-  if (scene.column.dimensions == 3)
-    ways.push_back({"two dimensions: column.size = [width, height]", 1.0 / scene.column.cells[2],
-                    "bubbles and eddies are larger in two dimensions than in three", "literature"});
-  else if (scene.column.cells[0] > 1)
-    ways.push_back({"column.cells = [1, ...]", 1.0 / scene.column.cells[0],
-                    "no motion across the bed: layers stay sharper than they are", "literature"});
+  add_fewer_dimensions(ways, scene);
   return first_ways(std::move(ways));
 }
 

@@ -82,6 +82,11 @@ Broken reynolds_of_no_use(const core::Scene& scene) {
                                                     : "spheres that pass each other keep their places in Stokes flow"});
 }
 
+Broken end_of_no_use(const core::Scene& scene) {
+  if (are_free(scene) || !scene.resolve.until) return {};
+  return Broken({std::string(core::name_of(scene.resolve.motion))});
+}
+
 Broken nothing_to_fall_in(const core::Scene& scene) {
   if (!are_free(scene)) return {};
   if (!scene.fluid.present()) return Broken({"a fluid"});
@@ -160,6 +165,9 @@ std::vector<core::Rule> resolve_rules() {
       {{"resolve.motion", "resolve.reynolds"},
        "resolve.motion = \"{}\": {}; leave out resolve.reynolds",
        reynolds_of_no_use},
+      {{"resolve.until", "resolve.motion"},
+       "resolve.until is the time of free spheres, and resolve.motion = \"{}\": leave out resolve.until",
+       end_of_no_use},
       {{"resolve.motion", "fluid.name", "column.gravity"}, "resolve.motion = \"free\" needs {}", nothing_to_fall_in},
       {{"species.density", "resolve.motion", "fluid.name", "fluid.density", "fluid.viscosity", "fluid.temperature"},
        "resolve.motion = \"free\": species '{}' is {} times as dense as the fluid; drag acts on free spheres one step "

@@ -16,6 +16,7 @@ from __future__ import annotations
 
 import functools
 import os
+from itertools import count, takewhile
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -153,10 +154,13 @@ class Run:
     @property
     def kinds(self) -> dict[str, list[str]]:
         """The species as the case names them, each with its size classes: {"sand": ["sand.1", "sand.2"], "fines": ["fines"]}."""
+        names = self.species
         found: dict[str, list[str]] = {}
-        for name in self.species:
+        for name in names:
             whole = name.rpartition(".")[0]
-            found.setdefault(whole if f"centre_{whole}_m" in self.history else name, []).append(name)
+            classes = list(takewhile(names.__contains__, (f"{whole}.{n}" for n in count(1))))
+            is_class = whole not in names and len(classes) > 1 and name in classes
+            found.setdefault(whole if is_class else name, []).append(name)
         return found
 
     @property

@@ -48,6 +48,10 @@ class Estimate(Scratch):
             self.assertGreater(told["disk_MB"], 0.01)
             self.assertGreaterEqual(len(told["ways"]), 2)
             self.assertTrue({way["evidence"] for way in told["ways"]} <= {"measured", "extrapolated", "literature"})
+        tapered, across = program.ROOT / "cases/templates/tapered-bed/case.toml", ("--set", 'column.shape="cylinder"', "--set",
+                                                                                   "column.size=[0.06,0.06,0.4]", "--set", "column.cells=[12,12,80]")
+        self.assertNotIn("column.cells = [1", self.ends(DONE, "estimate", tapered).stdout)  # which `check` refuses
+        self.assertIn('column.shape = "axisymmetric"', self.ends(DONE, "estimate", tapered, *across).stdout)
         self.assertIn("a probe of", self.ends(DONE, "estimate", case, "--probe", "50 ms").stdout)
         self.ends(WRONG_CASE, "estimate", case, "--probe", "5 m")
         self.ends(WRONG_CASE, "estimate")

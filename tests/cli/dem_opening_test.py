@@ -98,8 +98,14 @@ class Opening(Scratch):
         with h5py.File(run / "particles.h5") as file:
             self.assertEqual(list(file["particles"][()]), [1, 1, 0])  # 2 mm down after 20.2 ms; then nothing is left to run
         self.assertEqual((record["state"], record["time_s"]), ("done", rows["time_s"][-1]))
+        ended = f"ended after {record['time_s']:.4g} s: all particles have left"
+        self.assertIn(ended, record["warnings"])
         self.ends(DONE, "plot", run, "--what", "particles,history")
-        self.ends(DONE, "dem", case, "--quiet", "--resume", "--until", "70 ms", "-o", run)
+        rows = (run / "history.csv").read_text()
+        again = self.ends(DONE, "dem", case, "--json", "--resume", "--until", "70 ms", "-o", run)
+        self.assertIn(ended, again.stderr)
+        self.assertNotIn("to go on", again.stderr)
+        self.assertEqual((strict_json(again.stdout)["time_s"], (run / "history.csv").read_text()), (record["time_s"], rows))
 
     def test_without_an_opening_there_is_nothing_of_it(self):
         self.assertIn("outflow", strict_json(self.dem("open", "--until", "1 ms").stdout))

@@ -71,6 +71,21 @@ class OfRun(Scratch):
             self.assertGreaterEqual(drop["correlation_rows"], 1)
             self.assertEqual(part["mean_profile"]["fraction"]["fine"]["interval"], [None] * 8, "three profiles")
 
+    def test_each_run_is_measured_to_its_own_end(self):
+        self.write("case.toml", small_bed("4 ms") + '[output]\nevery = "1 ms"\nhistory_every = "0.1 ms"\n')
+        short, long = self.folder / "short", self.folder / "long"
+        for run, until in ((short, "2 ms"), (long, "4 ms")):
+            self.ends(DONE, "tfm", self.folder / "case.toml", "-o", run, "--until", until, "--quiet", "--no-picture")
+        for one, other, ends in ((short, long, (2e-3, 4e-3)), (long, short, (4e-3, 2e-3))):
+            found = strict_json(self.ends(DONE, "measure", one, "--beside", other, "--json", "--begin", 1e-3).stdout)
+            self.assertEqual((found["window"]["end_s"], found["beside"]["end_s"]), ends)
+        for words in ((short, "--begin", 2e-3), (long, "--beside", short, "--begin", 3e-3)):
+            self.assertIn(f"the run in {short} ends at 0.002 s", self.ends(WRONG_CASE, "measure", *words, "--json").stderr)
+        self.assertIn("--end 0.001 is not after", self.ends(WRONG_CASE, "measure", long, "--json", "--begin", 2e-3, "--end", 1e-3).stderr)
+        (short / "history.csv").unlink()
+        for words in ((short, "--begin", 0), (long, "--beside", short)):
+            self.assertIn(f"{short}: no history.csv", self.ends(FILE, "measure", *words, "--json").stderr)
+
     def test_options_of_means_are_for_the_json_of_a_run(self):
         for words in (["--begin", 1], ["--json", "--end", 1], ["--json", "--slabs", 0]):
             self.ends(WRONG_CASE, "measure", self.folder, *words)

@@ -13,6 +13,7 @@ RESOLVED = {
     "resolve.spheres = {}: at a voidage of {} the box is {} of the largest diameters wide; free spheres need {}, so that none touches another "
     "and its image: take {} or more": [*FREE, "resolve.spheres=2"],
     'resolve.motion = "{}": {}; leave out resolve.reynolds': ["resolve.motion=moving", "resolve.reynolds=[5]"],
+    'resolve.until is the time of free spheres, and resolve.motion = "{}": leave out resolve.until': ["resolve.until=1"],
     'resolve.motion = "free" needs {}': ["resolve.motion=free", "column.gravity=0"],
     "resolve.motion = \"free\": species '{}' is {} times as dense as the fluid; drag acts on free spheres one step late, which is stable "
     "from {} times on": [*FREE, "species.fine.density=1050"],

@@ -128,9 +128,9 @@ def stress_axis(scene, _):
 def level_axis(scene, model):
     flat = len(scene.cells) == 2
     levels = [Level("dem" if model == "dem" else "tfm 2-D" if flat else "tfm 3-D")]
-    if scene.law("drag") != "none" and not scene.only_for_particles and scene.needs["static_height_m"] > 0:
+    if scene.law("drag") != "none" and not scene.only_for_particles and not scene.is_tapered and scene.needs["static_height_m"] > 0:
         levels.append(Level("force balance", model="force_balance"))
-    if model == "tfm" and flat and scene.cells[0] > 1:
+    if model == "tfm" and flat and scene.cells[0] > 1 and not scene.is_tapered:
         levels.append(Level("tfm 1-D", 0, [f"column.cells=[1,{scene.cells[1]}]"]))
     if model == "tfm" and scene.law("contact") != "none" and scene.as_particles:
         levels.append(Level("dem", model="dem"))

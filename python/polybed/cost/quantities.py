@@ -78,6 +78,8 @@ def quantities_of_run(run, on):
     """By the definitions of docs/reference/measures.md, on the slabs asked for. Heights and centres are means of the rows of the history,
     moved by what the profiles stored in the window differ by if measured on these slabs."""
     species, found = species_of(run.history), RunQuantities()
+    if not (run.history["time_s"] > on.window.begin).any():  # all particles had left before it
+        return found
     [measured] = means_of(run.directory, begin=on.window.begin, slabs=on.slabs).runs
     columns = {"bed_height": "bed_height_m", **{f"centre_{name}": centre_column(name) for name in species},
                "pressure_drop": "pressure_drop_over_weight"}

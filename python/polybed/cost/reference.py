@@ -45,6 +45,8 @@ def set_bands(sweep, values):
 def exact_reference(sweeper):
     """The balance of forces on a bed of one species."""
     sweep = sweeper.sweep
+    if sweeper.scene.is_tapered:
+        return sweep.refuse("no exact value in a column that tapers: one is known of a uniform bed")
     found = sweep.rows[sweeper.run(Row(RunOrder("force_balance"), REFERENCE, note="force balance"))]
     if len(sweeper.scene.species) > 1 or not found.done or sweep.ranking not in found.measured.values:
         return sweep.refuse("no exact value of this quantity: one is known of the height and the pressure drop of a bed of one species "

@@ -44,6 +44,11 @@ class Scene:
         return self.of("column.cells")
 
     @property
+    def is_tapered(self):
+        """Whether the balance of forces is another at each height."""
+        return self.of("column.profile") is not None
+
+    @property
     def has_fluid(self):
         return self.of("fluid.name") != "none"
 

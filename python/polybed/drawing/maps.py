@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 import matplotlib.pyplot as plt
 import numpy as np
 
-from polybed.drawing.style import EMPTY, as_shown, faces_across, fitted, length_unit, width_of
+from polybed.drawing.style import EMPTY, around_axis, as_shown, faces_across, fitted, length_unit, width_of
 from polybed.files import DamagedError
 from polybed.record import case_of
 
@@ -49,17 +49,11 @@ def walls_of(run):
         return []
 
 
-def is_around_axis(run):
-    """Whether the width of the run is a radius."""
-    return case_of(run.record).get("column", {}).get("shape") == "axisymmetric"
-
-
 def inner_walls(run):
     """Ends of the lines in which the walls inside the column cut the plane of x and y in its middle, m."""
-    lines, walls = [], walls_of(run)
-    axis, sides = (0, (1,)) if walls and is_around_axis(run) else (run.size[0] / 2, (-1, 1))
-    for start, end, is_round in walls:
-        lines += [[(axis + side * point[0] / 2, point[1]) for point in (start, end)] for side in sides] if is_round else [(start, end)]
+    lines, axis = [], 0 if around_axis(run) else run.size[0] / 2
+    for start, end, is_round in walls_of(run):
+        lines += [[(axis + side * point[0] / 2, point[1]) for point in (start, end)] for side in (-1, 1)] if is_round else [(start, end)]
     return lines
 
 

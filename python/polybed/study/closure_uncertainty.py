@@ -22,7 +22,7 @@ with needed(__name__ == "__main__"):
     from polybed.study import output_folder
     from polybed.study.cases import Case, words_of
     from polybed.study.closure_band import band_of, tilt_of, width_of, write_moved
-    from polybed.ending import DONE, NUMBERS, StudyError, answer, guarded
+    from polybed.ending import DONE, NUMBERS, WRONG_CASE, StudyError, answer, guarded
     from polybed.study.record import draw, remark, write_record
     from polybed.runner import flags, has_checkpoint, run
     from polybed.study.stress_uncertainty import late_means
@@ -220,6 +220,8 @@ def tell_tfm(record):
 
 def make_tfm(request):
     bed = Bed(request)
+    if "profile" in bed.case.keys["column"]:
+        raise StudyError(WRONG_CASE, "--closure-uncertainty: the bands are those at one voidage, which differs along a column that tapers")
     picture = [] if request["picture"] else ["--no-picture"]
     run("tfm", request["case"], *words_of(bed.case.overrides), "-o", request["directory"], *picture,
         *flags(request, "resume", "force", "permissive", "quiet", "json"), answers=True)

@@ -65,7 +65,7 @@ def measured(directory):
 def species_of(history):
     """Names of the species, from the columns of a history; size classes one by one, without the species that they are classes of."""
     names = [name.removeprefix("centre_").removesuffix("_m") for name in history if name.startswith("centre_") and name.endswith("_m")]
-    return [name for name in names if f"{name}.1" not in names]
+    return [name for n, name in enumerate(names) if not {f"{name}.1", f"{name}.2"} <= set(names[:n])]
 
 
 def centre_column(species):

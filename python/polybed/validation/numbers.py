@@ -81,7 +81,9 @@ def column_of(record, history, name):
     """A column of the history, or `bed_voidage`: 1 less the solids of the settled bed over the bed height."""
     if name != "bed_voidage":
         return history[name]
-    bed = case_of(record)["bed"]
+    bed, column = (case_of(record).get(table, {}) for table in ("bed", "column"))
+    if "profile" in column:
+        raise FormatError("bed_voidage is that of a straight column, and this one tapers: compare bed_height_m")
     return 1 - bed["solids_fraction"] * bed["static_height"] / history["bed_height_m"]
 
 

@@ -116,6 +116,18 @@ TEST(BedTable, SizeClassesAreMeasuredAsOneSpeciesToo) {
   EXPECT_NEAR(*named("centre_sand_m", bed, names), (0.04 + 3 * 0.16) / 4, 1e-15);
 }
 
+TEST(BedTable, ASpeciesIsAClassOnlyOfWhatIsNoSpeciesItself) {
+  for (const std::vector<std::string>& names :
+       {std::vector<std::string>{"sand", "sand.1", "sand.2"}, {"sand.1"}, {"sand.2", "sand.3"}, {"sand", "sand.1"}}) {
+    std::vector<std::string> found;
+    for (const Kind& kind : kinds_of(names)) {
+      found.push_back(kind.name);
+      EXPECT_FALSE(kind.is_class) << kind.name;
+    }
+    EXPECT_EQ(found, names);
+  }
+}
+
 TEST(BedTable, AProfileWithoutPressureHasNoDropAndOneSpeciesNoDifference) {
   Bed bed = two_layers();
   bed.profile.pressure.clear();

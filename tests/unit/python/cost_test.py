@@ -15,7 +15,7 @@ sys.path.insert(0, PACKAGE)
 os.environ["POLYBED"] = PROGRAM
 
 from polybed.cost import command, quantities, selftest  # noqa: E402
-from polybed.cost.axes import axes_of, grid_level, numbers  # noqa: E402
+from polybed.cost.axes import axes_of, grid_level, level_axis, numbers  # noqa: E402
 from polybed.cost.fit import ErrorModel, PowerLaw, Priced, cheapest, fit_power_law, pareto_front  # noqa: E402
 from polybed.cost.judge import advice, carries  # noqa: E402
 from polybed.cost.refinement import refine  # noqa: E402
@@ -162,6 +162,13 @@ class Axes(unittest.TestCase):
         scene = SimpleNamespace(cells=[1, 99])
         self.assertEqual(grid_level(scene, 2).overrides, ["column.cells=[1,50]"])
         self.assertEqual((grid_level(scene, 1).label, grid_level(scene, 1).overrides), ("1x99", []))
+
+    def test_a_column_that_tapers_has_no_uniform_bed(self):
+        scene = SimpleNamespace(cells=[10, 80], law=lambda role: {"drag": "cello"}.get(role, "none"), only_for_particles=False,
+                                needs={"static_height_m": 0.1}, is_tapered=False)
+        self.assertEqual([level.label for level in level_axis(scene, "tfm").levels], ["tfm 2-D", "force balance", "tfm 1-D"])
+        scene.is_tapered = True
+        self.assertEqual([level.label for level in level_axis(scene, "tfm").levels], ["tfm 2-D"])
 
     def test_names(self):
         scene = SimpleNamespace(has_fluid=False)

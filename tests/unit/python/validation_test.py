@@ -112,6 +112,10 @@ class Numbers(unittest.TestCase):
         mean = {"how": "mean", "column": "bed_voidage"}
         found = given(mean, a_run({"steady": True}, **rows))
         self.assertAlmostEqual(found.value, 0.6, delta=1e-12)
+        tapered = a_run({"steady": True}, **rows)
+        tapered.record["case"] += "column = {profile = [[0, 0.1], [1, 0.2]]}\n"
+        with self.assertRaisesRegex(FormatError, "bed_voidage is that of a straight column"):
+            given(mean, tapered)
         with self.assertRaisesRegex(Undecided, "drift of bed_height") as raised:
             given(mean, a_run({"steady": False}, {"lines": ["drift of bed_height"]}, **rows))
         self.assertAlmostEqual(raised.exception.number.value, 0.6, delta=1e-12)  # shown, and not judged
