@@ -137,7 +137,7 @@ core::Field flux_at_ends(const core::Grid& grid, const fluid::Boundaries& bounda
 void Model::start_from(const core::Checkpoint& checkpoint) {
   resume(checkpoint);
   clear_closed(constants().grid, layout_, y_);
-  if (!layout_.with_pressure())  // what flows in now may be another than it was; a compressible fluid follows by sound
+  if (!effects().compressible)  // what flows in now may be another than it was; a compressible fluid follows by sound
     project_jump(equations_, layout_, velocity_scale_, 0, flux_at_ends(constants().grid, boundaries(), layout_, y_),
                  y_);
   time_ = step_ = 0;
