@@ -75,6 +75,7 @@ inline core::Scene two_species_box(int dimensions, int cells, double length, dou
   scene.species[1].name = "second";
   scene.species[1].diameter = 2 * diameter;
   scene.species[1].density = 1500;
+  scene.bed.volume_share = {1.0, 0.0};
   scene.effects = {{"drag", "cello"},
                    {"solids_stress", "frictional"},
                    {"species_exchange", "syamlal"},
