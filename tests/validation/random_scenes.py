@@ -328,11 +328,9 @@ def main():
         with tempfile.TemporaryDirectory() as scratch:
             folder = pathlib.Path(scratch)
             found, end = strange_mutant(asked.program, n, folder) if asked.mutants else strange_scene(asked.program, n, keys, roles, folder)
-            if found and asked.keep:
+            if found and asked.keep and (folder / "case.toml").exists():
                 asked.keep.mkdir(parents=True, exist_ok=True)
-                for name in ("case.toml",):
-                    if (folder / name).exists():
-                        shutil.copy(folder / name, asked.keep / f"{n}.toml")
+                shutil.copy(folder / "case.toml", asked.keep / f"{n}.toml")
             return n, found, end
 
     ends, wrong = {}, 0
