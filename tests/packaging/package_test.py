@@ -68,7 +68,7 @@ class Package(unittest.TestCase):
         page = gzip.decompress((self.usr / "share/man/man1/polybed.1.gz").read_bytes()).decode()
         for command in ("tfm", "dem", "compare", "plot"):
             self.assertIn(f".SS polybed {command}", page)
-        for told in ("simulated time", "directory of a run of polybed tfm, finished or not", "what is varied, separated by commas", "JSON file of profiles instead"):
+        for told in ("simulated time", "directory of a run of polybed tfm, finished or not", "what is varied, separated by commas", "CPU seconds of an entry that is not named"):
             self.assertIn(told, " ".join(page.split()))
         completion = self.usr / "share/bash-completion/completions/polybed"
         for words, expected in (("inversion x --scan ''", ["tfm", "dem", "both"]), ("cost x --model ''", ["tfm", "dem"]),
