@@ -37,7 +37,7 @@ void start_from_the_top(const core::Grid& grid, core::Field& pressure) {
   for (double& p : pressure) p -= mean;
 }
 
-/// The inlet's velocity on the bottom faces of a field that is 0 elsewhere.
+/// The inlet's velocity on the faces where it is given, of a field that is 0 elsewhere.
 core::Field inlet_velocity(const RightHandSide& equations, double t) {
   core::Field bottom = core::make_field(equations.constants().grid);
   equations.inlet().set_velocity(t, bottom);

@@ -47,7 +47,7 @@ class CompressibleFluid : public StepPart {
 
 /// Where the inlet jumps at a time, s, from `before`, an impulse brings fluxes and velocities to the new value at once,
 /// with the operator that the pressure uses. Nothing happens to a jump below 1e-9 of a velocity scale, m/s. Collective.
-/// \param before  the inlet's velocity on the bottom faces of a field that is 0 elsewhere, m/s
+/// \param before  the inlet's velocity on the faces where it is given, of a field that is 0 elsewhere, m/s
 void project_jump(RightHandSide& equations, const StateLayout& layout, double velocity_scale, double time,
                   const core::Field& before, std::span<double> y);
 
