@@ -171,9 +171,8 @@ Table inlet_table() {
                   "in place of the velocity: volume over time through the whole bottom, a flow or a table as there; in "
                   "two dimensions with column.depth")),
           key(&Inlet::at, "at",
-              help("bottom: the flow is spread evenly over the bottom, the pressure is given at the top; top: the flow "
-                   "is "
-                   "spread evenly over both ends, for a fluid that enters there (velocity below 0)")),
+              help("bottom: the flow is even over the bottom, the pressure is given at the top; top: the flow is even "
+                   "over both ends, for a fluid that enters there (velocity below 0)")),
       });
 }
 
