@@ -98,6 +98,15 @@ inline void advance(tfm::Model& model, double until) {
   model.show(until);
 }
 
+/// A model that has been advanced to a time, and its fields.
+struct Finished {
+  core::Timers timers;
+  tfm::Model model;
+  Finished(const core::Scene& scene, double until) : model(scene, timers) { advance(model, until); }
+  [[nodiscard]] const core::Grid& grid() const { return model.constants().grid; }
+  [[nodiscard]] const core::Field& phi(std::size_t j) const { return model.fields().solids.fraction[j]; }
+};
+
 /// The checkpoints at `end` of a run that went through and of one taken up again from that of `middle`.
 struct TwoEnds {
   core::Checkpoint through, resumed;

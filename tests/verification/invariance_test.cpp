@@ -16,13 +16,6 @@ core::Scene short_bed() {
   return scene;
 }
 
-struct Finished {
-  core::Timers timers;
-  tfm::Model model;
-  explicit Finished(const core::Scene& scene, double until) : model(scene, timers) { advance(model, until); }
-  [[nodiscard]] const core::Field& phi(std::size_t j) const { return model.fields().solids.fraction[j]; }
-};
-
 class Invariance : public testing::TestWithParam<std::string> {};
 
 TEST_P(Invariance, AnEmptySpeciesChangesNothing) {
@@ -37,9 +30,9 @@ TEST_P(Invariance, AnEmptySpeciesChangesNothing) {
   with.bed.volume_share.push_back(0.0);
   const Finished a(without, 0.1), b(with, 0.1);
   // Round-off: 100 steps of sums in another order; the pressure solver's tolerance is 1e-13.
-  EXPECT_LT(distance(a.model.constants().grid, a.phi(0), b.phi(0)), 1e-12);
-  EXPECT_LT(distance(a.model.constants().grid, a.phi(1), b.phi(1)), 1e-12);
-  record("distance", distance(a.model.constants().grid, a.phi(1), b.phi(1)));
+  EXPECT_LT(distance(a.grid(), a.phi(0), b.phi(0)), 1e-12);
+  EXPECT_LT(distance(a.grid(), a.phi(1), b.phi(1)), 1e-12);
+  record("distance", distance(a.grid(), a.phi(1), b.phi(1)));
   EXPECT_EQ(*std::max_element(b.phi(2).begin(), b.phi(2).end()), 0.0);
 }
 
@@ -55,9 +48,9 @@ TEST_P(Invariance, ASpeciesCutInTwoMovesAsOne) {
   core::Field sum = b.phi(1);
   for (std::size_t c = 0; c < sum.size(); ++c) sum[c] += b.phi(2)[c];
   // Round-off of other sums, amplified over 100 steps of an unsteady bed.
-  EXPECT_LT(distance(a.model.constants().grid, a.phi(0), b.phi(0)), 1e-10);
-  record("distance", distance(a.model.constants().grid, a.phi(1), sum));
-  EXPECT_LT(distance(a.model.constants().grid, a.phi(1), sum), 1e-10);
+  EXPECT_LT(distance(a.grid(), a.phi(0), b.phi(0)), 1e-10);
+  record("distance", distance(a.grid(), a.phi(1), sum));
+  EXPECT_LT(distance(a.grid(), a.phi(1), sum), 1e-10);
 }
 
 TEST_P(Invariance, OrderOfSpeciesDoesNotMatter) {
@@ -67,7 +60,7 @@ TEST_P(Invariance, OrderOfSpeciesDoesNotMatter) {
   std::swap(other.species[0], other.species[1]);
   std::swap(other.bed.volume_share[0], other.bed.volume_share[1]);
   const Finished a(one, 0.1), b(other, 0.1);
-  const double apart = distance(a.model.constants().grid, a.phi(0), b.phi(1));
+  const double apart = distance(a.grid(), a.phi(0), b.phi(1));
   record("distance", apart);
   EXPECT_LT(apart, 1e-12);
 }
@@ -77,7 +70,7 @@ double asymmetry(core::Scene scene) {
   scene.tfm.fixed_step = 1e-3;
   scene.tfm.pressure_tolerance = 1e-13;
   const Finished run(scene, 1.0);
-  const core::Grid& grid = run.model.constants().grid;
+  const core::Grid& grid = run.grid();
   double worst = 0;
   for (int j = 0; j < grid.cells[1]; ++j)
     for (int i = 0; i < grid.cells[0]; ++i)

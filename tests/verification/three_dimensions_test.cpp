@@ -21,11 +21,11 @@ core::Scene box_bed(int nx, int ny, int nz, const std::string& sides) {
 }
 
 /// A run of 0.1 s from an uneven start; phi of a species at a cell.
-struct Finished {
+struct FromUneven {
   core::Timers timers;
   tfm::Model model;
   template <class Factor>
-  Finished(const core::Scene& scene, Factor&& factor) : model(scene, timers) {
+  FromUneven(const core::Scene& scene, Factor&& factor) : model(scene, timers) {
     make_uneven(model, factor);
     advance(model, 0.1);
   }
@@ -43,7 +43,7 @@ auto lump(int at, int width) {
 // Round-off of 100 steps, and the pressure solver's tolerance of 1e-13.
 TEST(ThreeDimensions, AColumnThatIsEvenInDepthIsTheTwoDimensionalOne) {
   const auto uneven = [f = lump(2, 6)](int i, int j, int) { return f(i, j); };
-  const Finished flat(box_bed(6, 24, 1, "periodic"), uneven), deep(box_bed(6, 24, 4, "periodic"), uneven);
+  const FromUneven flat(box_bed(6, 24, 1, "periodic"), uneven), deep(box_bed(6, 24, 4, "periodic"), uneven);
   double worst = 0, spread = 0;
   for (int k = 0; k < 4; ++k)
     for (int j = 0; j < 24; ++j)
@@ -59,7 +59,7 @@ TEST(ThreeDimensions, AColumnThatIsEvenInDepthIsTheTwoDimensionalOne) {
 TEST(ThreeDimensions, WidthAndDepthMayChangePlaces) {
   const auto along_x = [f = lump(2, 6)](int i, int j, int) { return f(i, j); };
   const auto along_z = [f = lump(2, 6)](int, int j, int k) { return f(k, j); };
-  const Finished wide(box_bed(6, 24, 4, "wall"), along_x), deep(box_bed(4, 24, 6, "wall"), along_z);
+  const FromUneven wide(box_bed(6, 24, 4, "wall"), along_x), deep(box_bed(4, 24, 6, "wall"), along_z);
   double worst = 0, spread = 0;
   for (int k = 0; k < 4; ++k)
     for (int j = 0; j < 24; ++j)
@@ -76,7 +76,7 @@ TEST(ThreeDimensions, WidthAndDepthMayChangePlaces) {
 TEST(ThreeDimensions, LiftAndAddedMassKnowNoDirection) {
   const auto along_x = [f = lump(2, 6)](int i, int j, int) { return f(i, j); };
   const auto along_z = [f = lump(2, 6)](int, int j, int k) { return f(k, j); };
-  const Finished wide(with_particle_forces(box_bed(6, 24, 4, "wall")), along_x),
+  const FromUneven wide(with_particle_forces(box_bed(6, 24, 4, "wall")), along_x),
       deep(with_particle_forces(box_bed(4, 24, 6, "wall")), along_z), without(box_bed(6, 24, 4, "wall"), along_x);
   double worst = 0, moved = 0;
   for (int k = 0; k < 4; ++k)
@@ -103,7 +103,7 @@ TEST(JoinedSides, TheOriginDoesNotMatter) {
       scene.tfm.fixed_step.reset();
       scene.tfm.rtol = 1e-7;
     }
-    const Finished here(scene, at_0), there(scene, at_2);
+    const FromUneven here(scene, at_0), there(scene, at_2);
     double worst = 0, spread = 0;
     for (int j = 0; j < 24; ++j)
       for (int i = 0; i < 6; ++i) {
@@ -123,15 +123,15 @@ TEST(ThreeDimensions, BothIntegratorsAgreeAndKeepMass) {
   scene.tfm.fixed_step.reset();
   scene.bed.start_solids_fraction = 0.45;
   scene.tfm.rtol = 1e-5;
-  const Finished by_steps(scene, even);
+  const FromUneven by_steps(scene, even);
   scene.tfm.integrator = core::TfmIntegrator::implicit_steps;
-  const Finished by_newton(scene, even);
+  const FromUneven by_newton(scene, even);
   const core::Grid& grid = by_steps.model.constants().grid;
   const double apart =
       distance(grid, by_steps.model.fields().solids.fraction[0], by_newton.model.fields().solids.fraction[0]);
   record("distance", apart);
   EXPECT_LT(apart, 1e-3);  // a hundred times rtol
-  for (const Finished* run : {&by_steps, &by_newton}) {
+  for (const FromUneven* run : {&by_steps, &by_newton}) {
     const std::vector<double> volume = measures::species_volumes(grid, run->model.fields().solids);
     const double solids =
         scene.bed.static_height * scene.bed.solids_fraction * scene.column.size[0] * scene.column.size[2];
