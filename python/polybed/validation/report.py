@@ -76,10 +76,10 @@ def merged(blocks, new):
 
 def section_text(blocks):
     """The generated part of docs/record/validation.md."""
-    rows = [[*cells(row)[:-1], f"{block['date']}, {block['git_commit'][:9]}"] for block in blocks for row in block["rows"]]
     total = [row for block in blocks for row in block["rows"]]
-    commands = "\n".join(f"- {block['entry']}, {block['model']}: `{block['command']}`, {block['cpu_s']:.2g} CPU s" for block in blocks)
-    return (f"{BEGIN}\n{counted(total)}.\n\n{markdown_table([*HEAD[:-1], 'date, commit'], rows)}\n\n{commands}\n{END}")
+    commands = "\n".join(f"- {block['entry']}, {block['model']}: `{block['command']}`, {block['date']}, commit {block['git_commit'][:9]}, "
+                         f"{block['cpu_s']:.2g} CPU s" for block in blocks)
+    return f"{BEGIN}\n{counted(total)}.\n\n{markdown_table(HEAD[:-1], [cells(row)[:-1] for row in total])}\n\n{commands}\n{END}"
 
 
 def with_section(text, blocks):
