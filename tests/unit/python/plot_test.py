@@ -12,7 +12,9 @@ import unittest
 import unittest.mock
 from pathlib import Path
 
+import h5py
 import numpy as np
+from PIL import Image
 
 WRITER, PACKAGE = sys.argv[1], sys.argv[2]
 sys.path.insert(0, PACKAGE)
@@ -36,6 +38,15 @@ class SampleRun(unittest.TestCase):
         self.directory = Path(scratch.name) / "bed-tfm"
         subprocess.run([WRITER, self.directory, str(self.kind)], check=True)
         self.sample = polybed.read(self.directory)
+
+    def assert_drawn(self, *paths):
+        for path in paths:
+            self.assertGreater(plt.imread(path)[..., :3].std(), 0.05, f"{path.name} is blank")
+
+    def assert_drawn_early(self):
+        for name in ("profiles.h5", "history.csv", "run.json"):
+            (self.directory / name).unlink()
+        self.assert_drawn(plot.picture(self.directory, time=0.5))
 
 
 class Style(SampleRun):
@@ -168,8 +179,6 @@ class Film(SampleRun):
         self.assertEqual(animation.digits_of(np.array([0.0])), ".0f")
 
     def test_every_stored_time_is_a_frame(self):
-        from PIL import Image
-
         seen = []
         path = animation.film(self.sample, self.directory / "film.gif", progress=lambda *n: seen.append(n))
         self.assertEqual(seen, [(n, 5) for n in range(1, 6)])
@@ -192,10 +201,12 @@ class Whole(SampleRun):
     def test_all_pictures_and_nothing_else(self):
         paths = plot.pictures(self.directory, plot.kinds_of(self.sample)[:-1], time=0.5)
         self.assertEqual(sorted(p.name for p in (self.directory / "pictures").iterdir()), sorted(p.name for p in paths))
-        for path in paths:
-            self.assertEqual(path.read_bytes()[:8], b"\x89PNG\r\n\x1a\n")
-            image = plt.imread(path)
-            self.assertGreater(image[..., :3].std(), 0.05, f"{path.name} is blank")
+        self.assert_drawn(*paths)
+
+    def test_the_picture_at_the_end_needs_fields_alone(self):
+        self.assert_drawn_early()
+        with tempfile.TemporaryDirectory() as empty:
+            self.assertEqual(plot.main([empty]), 4)
 
     def test_words(self):
         with contextlib.redirect_stdout(io.StringIO()) as out, contextlib.redirect_stderr(io.StringIO()) as err:
@@ -352,39 +363,28 @@ class Particles(SampleRun):
         self.assertTrue(any(label.startswith("granular temperature") for label in labels))
         self.assertFalse(any("pressure" in label for label in labels))
 
-    def test_every_stored_time_is_a_frame(self):
-        from PIL import Image
-
-        path = animation.film(self.sample, self.directory / "film.gif")
-        with Image.open(path) as image:
-            self.assertEqual(image.n_frames, 5)
-
     def test_all_pictures_and_no_fields(self):
         paths = plot.pictures(self.directory)
         self.assertEqual([path.stem for path in paths], ["overview", "particles", "profiles", "history", "animation"])
-        for path in paths[:4]:
-            self.assertGreater(plt.imread(path)[..., :3].std(), 0.05, f"{path.name} is blank")
+        self.assert_drawn(*paths[:4])
+        with Image.open(paths[4]) as film:
+            self.assertEqual(film.n_frames, 5)
         with contextlib.redirect_stderr(io.StringIO()) as err:
             self.assertEqual(plot.main([str(self.directory), "--what", "fields"]), 2)
         self.assertIn("holds no fields; there are overview, particles", err.getvalue())
 
-    def test_the_picture_at_the_end_needs_neither_profiles_nor_history(self):
-        for name in ("profiles.h5", "history.csv", "run.json"):
-            (self.directory / name).unlink()
-        self.assertTrue(plot.picture(self.directory).exists())
+    def test_the_picture_at_the_end_needs_particles_alone(self):
+        self.assert_drawn_early()
 
     def test_a_step_without_particles_is_drawn(self):
-        import h5py
-
         with h5py.File(self.directory / "particles/000005.h5", "r+") as file:
             for name in list(file["step"]):
-                data = file["step"][name]
-                empty = data[:0]
+                empty = file["step"][name][:0]
                 del file["step"][name]
                 file["step"][name] = empty
         with h5py.File(self.directory / "particles.h5", "r+") as file:
             file["particles"][4] = 0
-        self.assertTrue(plot.picture(self.directory).exists())
+        self.assert_drawn(plot.picture(self.directory))
         self.assertEqual(len(plot.pictures(self.directory, ["particles", "animation"])), 2)
 
 

@@ -15,7 +15,6 @@ WRITER, PACKAGE = sys.argv[1], sys.argv[2]
 sys.path.insert(0, PACKAGE)
 
 import polybed
-from polybed import plot
 
 
 def described(directory, xdmf):
@@ -174,28 +173,11 @@ class ReadBoth(WrittenRun):
         self.assertEqual(run.phi_fine[0].shape, (60, 18))
 
 
-class Picture(WrittenRun):
-    def test_is_drawn(self):
-        path = plot.picture(self.directory, time=0.5)
-        self.assertEqual(path, self.directory / "picture.png")
-        self.assertEqual(path.read_bytes()[:8], b"\x89PNG\r\n\x1a\n")
-
-    def test_an_early_run_without_profiles_and_history_is_drawn(self):
-        for name in ("profiles.h5", "history.csv", "run.json"):
-            (self.directory / name).unlink()
-        self.assertTrue(plot.picture(self.directory).exists())
-
-    def test_a_directory_without_fields_is_an_error(self):
-        with tempfile.TemporaryDirectory() as empty:
-            self.assertEqual(plot.main([empty]), 4)
-
-
-class Picture3D(WrittenRun):
+class ReadThreeDimensions(WrittenRun):
     kind = 3
 
-    def test_is_drawn(self):
+    def test_fields_have_a_depth(self):
         self.assertEqual(self.run_read.u_fluid[0].shape, (4, 60, 18, 3))
-        self.assertTrue(plot.picture(self.directory).exists())
 
 
 if __name__ == "__main__":
