@@ -7,12 +7,12 @@
 #include <numeric>
 
 #include "core/case/scene.hpp"
-#include "core/numerics/operators.hpp"
+#include "tests/unit/core/metric_checks.hpp"
 
 namespace polybed::core {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// A column of 0.2 m across and `height` m.
 Grid grid_of_taper(int cells, int rows, bool rings, double height) {
@@ -24,7 +24,7 @@ Grid grid_of_taper(int cells, int rows, bool rings, double height) {
   return grid;
 }
 
-double sum_of(const std::vector<double>& values) { return std::accumulate(values.begin(), values.end(), 0.0); }
+double sum_over(const std::vector<double>& values) { return std::accumulate(values.begin(), values.end(), 0.0); }
 
 /// m3: pi/12 (a^2 + a b + b^2) of height and diameters.
 double frustum(double height, double a, double b) { return pi / 12 * height * (a * a + a * b + b * b); }
@@ -49,11 +49,11 @@ TEST(TaperedColumn, HasTheVolumeAndTheCrossSectionsOfItsSolidOfRevolution) {
       const std::vector<CrossSection> sections = cross_sections(grid, rings, uneven);
       ASSERT_EQ(sections.size(), std::size_t(rows + 1));
       double found = 0;
-      for (int y = 0; y < rows; ++y) found += sum_of(sections[std::size_t(y)].volume) * grid.cell_volume();
+      for (int y = 0; y < rows; ++y) found += sum_over(sections[std::size_t(y)].volume) * grid.cell_volume();
       EXPECT_NEAR(found / volume, 1, 1e-12) << cells;
       for (int y = 0; y <= rows; ++y) {
         const double diameter = diameter_of_uneven(y * grid.spacing[1]), whole = grid.spacing[0] * grid.spacing[2];
-        EXPECT_NEAR(sum_of(sections[std::size_t(y)].open_y) * whole / (pi / 4 * diameter * diameter), 1, 1e-12)
+        EXPECT_NEAR(sum_over(sections[std::size_t(y)].open_y) * whole / (pi / 4 * diameter * diameter), 1, 1e-12)
             << cells << ' ' << y;
       }
     }
@@ -154,27 +154,11 @@ TEST(TaperedColumn, KnowsWhatLiesBelowAHeight) {
     EXPECT_NEAR(column.filled_height(column.even_height(height)), height, 1e-14);
 }
 
-// What leaves one cell enters the next, and nothing passes the wall.
 TEST(TaperedColumn, KeepsWhatItContains) {
   for (const bool rings : {true, false}) {
     Grid grid = grid_of_taper(16, 30, rings, 0.3);
     grid.metric = metric_of(grid, rings ? ColumnShape::axisymmetric : ColumnShape::cylinder, uneven);
-    FaceField flux = make_face_field(grid);
-    for (int a = 0; a < grid.dimensions; ++a)
-      for_each_row(grid, interior_faces(grid, a), [&](Index begin, Index end) {
-        for (Index f = begin; f < end; ++f) flux[std::size_t(a)][std::size_t(f)] = std::sin(0.7 * double(f * (a + 1)));
-      });
-    Field rate = make_field(grid);
-    divergence(grid, flux, rate);
-    double sum = 0, size = 0;
-    for_each_row(grid, [&](Index begin, Index end) {
-      for (auto c = std::size_t(begin); c < std::size_t(end); ++c) {
-        sum += grid.metric->volume[c] * rate[c];
-        size += grid.metric->volume[c] * std::abs(rate[c]);
-      }
-    });
-    EXPECT_LT(std::abs(sum), 1e-13 * size);
-    EXPECT_GT(size, 1);
+    test::expect_conserving(grid);
   }
 }
 
@@ -187,17 +171,7 @@ TEST(TaperedColumn, IsTheSameInBlocks) {
   part.before[1] = 6;
   part.after[1] = 7;
   const auto block = metric_of(part, ColumnShape::axisymmetric, uneven);
-  for (int j = -2; j < 9; ++j)
-    for (int i = -2; i < 14; ++i) {
-      const auto there = std::size_t(grid.index(i, j + 6)), here = std::size_t(part.index(i, j));
-      EXPECT_EQ(block->volume[here], whole->volume[there]);
-      for (std::size_t a = 0; a < 2; ++a) {
-        EXPECT_EQ(block->open[a][here], whole->open[a][there]);
-        if (i > -2 && j > -2) {
-          EXPECT_EQ(block->wall[a][here], whole->wall[a][there]);
-        }
-      }
-    }
+  test::expect_part_of(grid, *whole, part, *block);
 }
 
 }  // namespace

@@ -7,11 +7,12 @@
 #include <numbers>
 
 #include "core/numerics/operators.hpp"
+#include "tests/unit/core/metric_checks.hpp"
 
 namespace polybed::core {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// A column of 1 m across.
 Grid grid_across(int cells, int dimensions, std::array<int, 3> before = {0, 0, 0}) {
@@ -115,24 +116,10 @@ TEST(RoundColumn, ResistsAPipesFlowBetterThanInOrderOneAndAHalf) {
   EXPECT_GT((x * y - count * xy) / (count * xx - x * x), 1.5);
 }
 
-// What leaves one cell enters the next, and nothing passes the wall.
 TEST(RoundColumn, KeepsWhatItContains) {
   Grid grid = grid_across(9, 3);
   grid.metric = metric_of(grid, ColumnShape::cylinder);
-  FaceField flux = make_face_field(grid);
-  for (std::size_t a : {0, 2})
-    for (std::size_t f = 0; f < flux[a].size(); ++f) flux[a][f] = std::sin(0.7 * double(f * (a + 1)));
-  Field rate = make_field(grid);
-  divergence(grid, flux, rate);
-  double sum = 0, size = 0;
-  for_each_row(grid, [&](Index begin, Index end) {
-    for (auto c = std::size_t(begin); c < std::size_t(end); ++c) {
-      sum += grid.metric->volume[c] * rate[c];
-      size += grid.metric->volume[c] * std::abs(rate[c]);
-    }
-  });
-  EXPECT_LT(std::abs(sum), 1e-14 * size);
-  EXPECT_GT(size, 1);
+  test::expect_conserving(grid);
 }
 
 // (1/r) d(r u)/dr of u = r is 2, in every ring.
@@ -159,17 +146,7 @@ TEST(RoundColumn, IsTheSameInBlocks) {
   part.before[0] = 4;
   part.after[0] = 3;
   const auto block = metric_of(part, ColumnShape::cylinder);
-  for (int k = -2; k < 14; ++k)
-    for (int i = -2; i < 7; ++i) {
-      const auto there = std::size_t(grid.index(i + 4, 1, k)), here = std::size_t(part.index(i, 1, k));
-      EXPECT_EQ(block->volume[here], whole->volume[there]);
-      for (std::size_t a = 0; a < 3; ++a) {
-        EXPECT_EQ(block->open[a][here], whole->open[a][there]);
-        if (i > -2 && k > -2) {
-          EXPECT_EQ(block->wall[a][here], whole->wall[a][there]);
-        }
-      }
-    }
+  test::expect_part_of(grid, *whole, part, *block);
 }
 
 }  // namespace

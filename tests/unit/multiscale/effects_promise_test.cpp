@@ -9,6 +9,7 @@
 #include "multiscale/effects/neglected.hpp"
 #include "multiscale/roles.hpp"
 #include "multiscale/scene_rules.hpp"
+#include "tests/unit/multiscale/beads_case.hpp"
 
 namespace polybed::multiscale {
 namespace {
@@ -20,21 +21,7 @@ TEST(Sample, IsTheShareAskedForAndAlwaysTheSame) {
   for (std::int64_t n = 0; n < 100; ++n) EXPECT_TRUE(in_sample(n, 1));
 }
 
-const std::string text = R"(
-column = { size = [0.02, 0.1], cells = [4, 20] }
-fluid = { name = "water", temperature = "20 degC" }
-bed = { volume_share = [1], static_height = "40 mm", solids_fraction = 0.6 }
-inlet = { superficial_velocity = "10 mm/s" }
-run = { until = "1 s" }
-[[species]]
-name = "beads"
-diameter = "1 mm"
-density = 2500
-[effects]
-drag = "cello"
-contact = "hertz"
-magnus = "rubinow_keller"
-)";
+const std::string text = test::beads_case("contact = \"hertz\"\nmagnus = \"rubinow_keller\"\n");
 
 TEST(Monitor, WatchesNoShearedBox) {
   core::Scene scene = core::parse_case(text, "case.toml", {}, all_roles(), size_classes);

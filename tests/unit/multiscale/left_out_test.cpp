@@ -10,25 +10,13 @@
 #include "closures/relevance.hpp"
 #include "core/case/file.hpp"
 #include "multiscale/roles.hpp"
+#include "tests/unit/multiscale/beads_case.hpp"
 
 namespace polybed::multiscale {
 namespace {
 
-const std::string beads = R"(
-column = { size = [0.02, 0.1], cells = [4, 20] }
-fluid = { name = "water", density = 1000, viscosity = 1e-3 }
-bed = { volume_share = [1], static_height = "40 mm", solids_fraction = 0.6 }
-inlet = { superficial_velocity = "10 mm/s" }
-run = { until = "1 s" }
-[[species]]
-name = "beads"
-diameter = "1 mm"
-density = 2500
-[effects]
-drag = "cello"
-solids_stress = "frictional"
-contact = "hertz_mindlin"
-)";
+const std::string beads = test::beads_case("solids_stress = \"frictional\"\ncontact = \"hertz_mindlin\"\n",
+                                           "density = 1000, viscosity = 1e-3");
 
 core::Scene scene_of(const std::vector<std::string>& overrides = {}) {
   return core::parse_case(beads, "case.toml", overrides, all_roles(), size_classes);

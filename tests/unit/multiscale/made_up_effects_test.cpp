@@ -12,6 +12,7 @@
 #include "relevance/supremum.hpp"
 #include "scenes/dem_fluid_sides.hpp"
 #include "scenes/record.hpp"
+#include "tests/unit/multiscale/beads_case.hpp"
 #include "tfm/effects/maker.hpp"
 
 namespace polybed::multiscale {
@@ -61,20 +62,7 @@ relevance::Menu menu_with_wind() {
   return all;
 }
 
-const std::string text = R"(
-column = { size = [0.02, 0.1], cells = [4, 20] }
-fluid = { name = "water", temperature = "20 degC" }
-bed = { volume_share = [1], static_height = "40 mm", solids_fraction = 0.6 }
-inlet = { superficial_velocity = "10 mm/s" }
-run = { until = "1 s" }
-[[species]]
-name = "beads"
-diameter = "1 mm"
-density = 2500
-[effects]
-drag = "cello"
-wind = "steady"
-)";
+const std::string text = test::beads_case("wind = \"steady\"\n");
 
 core::Scene read(const std::vector<std::string>& settings) {
   const relevance::Menu all = menu_with_wind();
