@@ -14,24 +14,24 @@ std::map<std::string, double> published(const DragForm& form) {
   return constants;
 }
 
-struct Mixture {
+struct Sample {
   double eps;
   std::vector<double> share, diameter, slip;
 };
 
-const std::vector<Mixture> mixtures{{0.30, {0.4, 0.6}, {1, 2.5}, {0.1, 0.2}},
-                                    {0.45, {0.2, 0.3, 0.5}, {1, 2, 3}, {20, 30, 50}},
-                                    {0.85, {0.5, 0.5}, {1, 4}, {5, 9000}},
-                                    {1, {1}, {1}, {7}}};
+const std::vector<Sample> samples{{0.30, {0.4, 0.6}, {1, 2.5}, {0.1, 0.2}},
+                                  {0.45, {0.2, 0.3, 0.5}, {1, 2, 3}, {20, 30, 50}},
+                                  {0.85, {0.5, 0.5}, {1, 4}, {5, 9000}},
+                                  {1, {1}, {1}, {7}}};
 
-std::vector<double> of_mixture(const DragLaw& law, const Mixture& m) {
+std::vector<double> of_mixture(const DragLaw& law, const Sample& m) {
   std::vector<double> f(m.share.size()), slope(m.share.size());
   drag_of_mixture(law, m.eps, m.share, m.diameter, m.slip, 1, 1, f, slope);
   return f;
 }
 
 /// The same by the batch of cells.
-std::vector<double> of_cells(const DragLaw& law, const Mixture& m) {
+std::vector<double> of_cells(const DragLaw& law, const Sample& m) {
   std::vector<double> f(m.share.size());
   std::vector<const double*> share, slip;
   std::vector<double*> out;
@@ -46,7 +46,7 @@ std::vector<double> of_cells(const DragLaw& law, const Mixture& m) {
 }
 
 /// The same by the batch of particles.
-std::vector<double> of_particles(const DragLaw& law, const Mixture& m) {
+std::vector<double> of_particles(const DragLaw& law, const Sample& m) {
   const Composition sum = composition_of(m.share, m.diameter);
   const std::size_t n = m.share.size();
   const std::vector<double> eps(n, m.eps), per_mean(n, sum.per_mean), average(n, sum.average),
@@ -61,7 +61,7 @@ TEST(DragForm, WithPublishedConstantsIsThePublishedLaw) {
   for (const DragForm& form : drag_forms())
     for (const Guard guard : {Guard::on, Guard::off}) {
       const DragLaw fitted = fitted_drag_law(form.name, published(form), guard), law = drag_law(form.name, guard);
-      for (const Mixture& m : mixtures) {
+      for (const Sample& m : samples) {
         const std::vector<double> expected = of_mixture(law, m), by_form = of_mixture(fitted, m);
         const std::vector<double> cells = of_cells(fitted, m), particles = of_particles(fitted, m);
         for (std::size_t j = 0; j < expected.size(); ++j) {  // the compiler folds known constants: a rounding or two
@@ -81,7 +81,7 @@ TEST(DragForm, EveryConstantActs) {
       const DragLaw law = fitted_drag_law(form.name, published(form), Guard::on),
                     other = fitted_drag_law(form.name, constants, Guard::on);
       double most = 0;
-      for (const Mixture& m : mixtures) {
+      for (const Sample& m : samples) {
         const std::vector<double> a = of_mixture(law, m), b = of_mixture(other, m);
         for (std::size_t j = 0; j < a.size(); ++j) most = std::max(most, std::abs(b[j] / a[j] - 1));
       }
@@ -125,7 +125,7 @@ TEST(MovedLaw, CommonFactorAndTilt) {
     DragLaw moved = law;
     moved.common = 1.04;
     moved.tilt = -0.02;
-    for (const Mixture& m : mixtures) {
+    for (const Sample& m : samples) {
       const std::vector<double> plain = of_mixture(law, m), f = of_mixture(moved, m), cells = of_cells(moved, m),
                                 particles = of_particles(moved, m);
       const double mean = sauter_diameter(m.share, m.diameter);
@@ -142,7 +142,7 @@ TEST(MovedLaw, CommonFactorAndTilt) {
 
 TEST(MovedLaw, TiltKeepsTheSumWhereForcesGoAsDiameters) {
   DragLaw moved = drag_law("vbk", "vbk_theory", Guard::on);
-  const Mixture m{0.5, {0.3, 0.7}, {1, 3}, {10, 10}};
+  const Sample m{0.5, {0.3, 0.7}, {1, 3}, {10, 10}};
   const double mean = sauter_diameter(m.share, m.diameter);
   const auto sum = [&] {
     const std::vector<double> f = of_mixture(moved, m);

@@ -65,14 +65,14 @@ TEST(DragTables, PrintedAndRecomputedColumnsOfOneSize) {
 }
 
 /// Everything that a row of ref_poly_points asks of one mixture.
-struct Mixture {
+struct TableMixture {
   double eps = 0, re = 0;
   std::vector<double> share, diameter;
   std::vector<std::size_t> rows;
 };
 
-std::vector<Mixture> mixtures(const Table& table) {
-  std::vector<Mixture> list;
+std::vector<TableMixture> mixtures_of(const Table& table) {
+  std::vector<TableMixture> list;
   std::string last;
   for (std::size_t n = 0; n < table.rows(); ++n) {
     if (table.text(n, "case") != last) list.push_back({table.number(n, "eps"), table.number(n, "Rebar"), {}, {}, {}});
@@ -86,7 +86,7 @@ std::vector<Mixture> mixtures(const Table& table) {
 
 TEST(DragTables, MixturesAtReferencePoints) {
   const Table table("lbm/ref_poly_points.csv");
-  const auto bare = [](const std::string& name, const Mixture& m, std::vector<double>& f) {
+  const auto bare = [](const std::string& name, const TableMixture& m, std::vector<double>& f) {
     const DragLaw law = drag_law(name, Guard::off);
     const double mean = sauter_diameter(m.share, m.diameter);
     std::vector<double> slip(m.share.size(), m.re / mean), slope(m.share.size());
@@ -94,7 +94,7 @@ TEST(DragTables, MixturesAtReferencePoints) {
     drag_of_mixture(law, m.eps, m.share, m.diameter, slip, 1, 1, f, slope);
     return drag_of_mean(law, m.eps, m.re, m.share, m.diameter, f);
   };
-  for (const Mixture& m : mixtures(table)) {
+  for (const TableMixture& m : mixtures_of(table)) {
     std::vector<double> cello, theory, corrected, yin;
     const double mean = sauter_diameter(m.share, m.diameter);
     const double f_mean = bare("cello", m, cello), f_vbk = bare("vbk_theory", m, theory);

@@ -31,7 +31,7 @@ void expect_rising_and_positive(const std::vector<SizeClass>& classes) {
 }
 
 // Round-off: 1e-13 is 500 units of the last place, of a sum of up to ten powers up to the tenth of eigenvalues.
-constexpr double round_off = 1e-13;
+constexpr double few_roundings = 1e-13;
 
 TEST(SizeClasses, HaveTheMomentsOfALogNormalDistribution) {
   for (const double deviation : {1e-3, 0.1, 0.3, 0.5, 1.0})
@@ -40,7 +40,7 @@ TEST(SizeClasses, HaveTheMomentsOfALogNormalDistribution) {
       ASSERT_EQ(classes.size(), std::size_t(count));
       expect_rising_and_positive(classes);
       for (int k = -count; k < count; ++k)
-        EXPECT_NEAR(moment(classes, k) / lognormal_moment(0.8e-3, deviation, k), 1, round_off)
+        EXPECT_NEAR(moment(classes, k) / lognormal_moment(0.8e-3, deviation, k), 1, few_roundings)
             << deviation << " " << count << " " << k;
       // 2N moments, not more: else the test of the others says nothing.
       if (deviation >= 0.3) {

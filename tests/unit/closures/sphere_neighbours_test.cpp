@@ -9,13 +9,13 @@
 namespace polybed::closures {
 namespace {
 
-constexpr double round_off = 1e-11;  // of a system of four, whose entries reach 1e4 at phi = 0.7
+constexpr double of_a_system = 1e-11;  // of a system of four, whose entries reach 1e4 at phi = 0.7
 
 // (1 - phi)^4/(1 + 2 phi)^2.
 TEST(SphereNeighbours, OfOneSpeciesAreThoseOfPercusAndYevick) {
   for (const double phi : {0.0, 1e-8, 0.1, 0.2, 0.5, 0.7}) {
     const double d = 2e-3, expected = std::pow(1 - phi, 4) / std::pow(1 + 2 * phi, 2);
-    EXPECT_NEAR(SphereNeighbours({&phi, 1}, {&d, 1}).excess(d, d, phi, true), expected, round_off) << phi;
+    EXPECT_NEAR(SphereNeighbours({&phi, 1}, {&d, 1}).excess(d, d, phi, true), expected, of_a_system) << phi;
   }
 }
 
@@ -35,7 +35,7 @@ TEST(SphereNeighbours, ASpeciesMayBeCutInTwo) {
   const double whole = 0.3;
   const SphereNeighbours cut(phi, d), one({&whole, 1}, {&d[0], 1});
   EXPECT_NEAR(cut.excess(d[0], d[0], phi[0], true) + cut.excess(d[0], d[1], phi[1], false),
-              one.excess(d[0], d[0], whole, true), round_off);
+              one.excess(d[0], d[0], whole, true), of_a_system);
 }
 
 TEST(SphereNeighbours, AbsentSpeciesAreAlone) {
@@ -48,7 +48,7 @@ TEST(SphereNeighbours, AbsentSpeciesAreAlone) {
 TEST(SphereNeighbours, BeyondTheDensestPackingTheyAreThoseOfIt) {
   const double d = 1e-3, phi = 0.9, most = SphereNeighbours::most_fraction;
   EXPECT_NEAR(SphereNeighbours({&phi, 1}, {&d, 1}).excess(d, d, most, true),
-              SphereNeighbours({&most, 1}, {&d, 1}).excess(d, d, most, true), round_off);
+              SphereNeighbours({&most, 1}, {&d, 1}).excess(d, d, most, true), of_a_system);
 }
 
 }  // namespace

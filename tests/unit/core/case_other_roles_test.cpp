@@ -27,25 +27,25 @@ density = "1395 kg/m3"
 
 using Effects = std::map<std::string, std::string>;
 
-Effects read(const std::string& text, OtherRoles others, const std::vector<std::string>& set = {}) {
+Effects effects_of(const std::string& text, OtherRoles others, const std::vector<std::string>& set = {}) {
   return parse_case(text, "case.toml", set, menu, {}, {}, others).effects;
 }
 
 const std::string with_drag = named + "[effects]\ndrag = \"cello\"\n";
 
 TEST(OtherRoles, AreOffOrLeftToTheChooser) {
-  EXPECT_EQ(read(with_drag, OtherRoles::off), (Effects{{"drag", "cello"}}));
+  EXPECT_EQ(effects_of(with_drag, OtherRoles::off), (Effects{{"drag", "cello"}}));
   const Effects chosen{{"drag", "cello"}, {"solids_stress", "auto"}, {"contact", "auto"}};
-  EXPECT_EQ(read(with_drag, OtherRoles::chosen), chosen);
-  EXPECT_EQ(read(named, OtherRoles::chosen).at("drag"), automatic);  // without [effects] none is named
+  EXPECT_EQ(effects_of(with_drag, OtherRoles::chosen), chosen);
+  EXPECT_EQ(effects_of(named, OtherRoles::chosen).at("drag"), automatic);  // without [effects] none is named
 }
 
 TEST(OtherRoles, WhatTheCaseSaysGoesBefore) {
-  EXPECT_FALSE(read(with_drag, OtherRoles::chosen, {"effects.contact=none"}).contains("contact"));
-  EXPECT_EQ(read(with_drag, OtherRoles::chosen, {"effects.others=none"}).size(), 1u);
-  EXPECT_EQ(read(with_drag, OtherRoles::off, {"effects.others=auto"}).size(), 3u);
+  EXPECT_FALSE(effects_of(with_drag, OtherRoles::chosen, {"effects.contact=none"}).contains("contact"));
+  EXPECT_EQ(effects_of(with_drag, OtherRoles::chosen, {"effects.others=none"}).size(), 1u);
+  EXPECT_EQ(effects_of(with_drag, OtherRoles::off, {"effects.others=auto"}).size(), 3u);
   try {
-    read(with_drag, OtherRoles::chosen, {"effects.others=some"});
+    effects_of(with_drag, OtherRoles::chosen, {"effects.others=some"});
     FAIL();
   } catch (const CaseError& error) {
     EXPECT_THAT(error.what(), testing::HasSubstr("allowed are auto | none"));
@@ -54,7 +54,7 @@ TEST(OtherRoles, WhatTheCaseSaysGoesBefore) {
 
 TEST(OtherRoles, AResolvedCaseHasDecidedThem) {
   const std::string resolved = resolved_case(parse_case(with_drag, "case.toml", {}, menu));
-  EXPECT_EQ(read(resolved, OtherRoles::chosen), (Effects{{"drag", "cello"}}));
+  EXPECT_EQ(effects_of(resolved, OtherRoles::chosen), (Effects{{"drag", "cello"}}));
 }
 
 }  // namespace

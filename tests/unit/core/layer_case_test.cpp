@@ -51,7 +51,7 @@ Scene read(const std::string& text, const std::vector<std::string>& overrides = 
   return parse_case(text, "case.toml", overrides, {});
 }
 
-std::string message_of(const std::string& bed) {
+std::string message_of_bed(const std::string& bed) {
   try {
     (void)read(bed_of(bed));
   } catch (const CaseError& error) {
@@ -201,11 +201,11 @@ TEST(Layers, WhatIsWrongIsToldWithPlaceAndSuggestion) {
        "case.toml:20:17: bed.static_height differs from the amount in [[layer]]"},
       {head + "volume_share = [0.5, 0.5]\n" + sand, "bed.volume_share differs from the shares in [[layer]]"},
       {"[bed]\nstart = \"layered\"\n" + sand, "bed.solids_fraction is missing"}};
-  for (const auto& [bed, message] : wrong) EXPECT_THAT(message_of(bed), HasSubstr(message));
+  for (const auto& [bed, message] : wrong) EXPECT_THAT(message_of_bed(bed), HasSubstr(message));
 }
 
 TEST(Layers, AllThatIsWrongIsToldAtOnceAndOnce) {
-  const std::string message = message_of(R"([bed]
+  const std::string message = message_of_bed(R"([bed]
 solids_fraction = 0.6
 [[layer]]
 species = "snad"
@@ -222,7 +222,7 @@ from = [0.01]
     EXPECT_THAT(message, HasSubstr(part));
   EXPECT_THAT(message, Not(HasSubstr("bed.volume_share")));
   EXPECT_THAT(message, Not(HasSubstr("bed.static_height")));
-  EXPECT_THAT(message_of("[bed]\nsolids_fraction = 0.6\n[layer]\nheight = 1\n"),
+  EXPECT_THAT(message_of_bed("[bed]\nsolids_fraction = 0.6\n[layer]\nheight = 1\n"),
               HasSubstr("layer is an array of tables: write [[layer]]"));
 }
 

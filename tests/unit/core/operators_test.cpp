@@ -8,7 +8,7 @@
 namespace polybed::core {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// A periodic row of cell means of sin(2 pi x) on [0, 1], ghosts filled.
 struct Row {

@@ -21,7 +21,7 @@ using testing::HasSubstr;
 const ParticleScene scene{{0.06, 0.62, 0.004}, {false, false, true}, {"fine", "coarse"}};
 
 /// Particles that tell who they are and when; every third id is missing.
-ParticleStep telling(std::size_t count, double time) {
+ParticleStep telling_step(std::size_t count, double time) {
   ParticleStep p;
   for (std::size_t i = 0; i < count; ++i) {
     const double x = double(i) / 7 + time;
@@ -53,11 +53,11 @@ TEST(Particles, ComeBackToTheBitThoughTheirNumberChanges) {
   ParticleWriter writer(scratch.path(), scene);
   const std::vector<std::size_t> counts{5, 8, 0, 1};
   for (std::size_t n = 0; n < counts.size(); ++n) {
-    writer.write_step(0.25 * double(n), snapshot(telling(counts[n], double(n))));
+    writer.write_step(0.25 * double(n), snapshot(telling_step(counts[n], double(n))));
     const ParticleReader reader(scratch.path());  // complete after every step
     ASSERT_EQ(reader.times().size(), n + 1);
     EXPECT_EQ(reader.index().texts_attribute("/", "species_names"), scene.species);
-    for (std::size_t m = 0; m <= n; ++m) expect_equal(reader.step(m), telling(counts[m], double(m)));
+    for (std::size_t m = 0; m <= n; ++m) expect_equal(reader.step(m), telling_step(counts[m], double(m)));
   }
   EXPECT_THAT(ParticleReader(scratch.path()).times(), ElementsAre(0, 0.25, 0.5, 0.75));
   EXPECT_THROW((void)ParticleReader(scratch.path()).step(4), FileError);
@@ -66,7 +66,7 @@ TEST(Particles, ComeBackToTheBitThoughTheirNumberChanges) {
 // A double holds integers up to 2^53 only; an id beyond would come back as its neighbour.
 TEST(Particles, IdsKeepAllTheirBits) {
   const test::Scratch scratch;
-  ParticleStep p = telling(2, 0);
+  ParticleStep p = telling_step(2, 0);
   p.id = {(std::int64_t(1) << 53) + 1, (std::int64_t(1) << 62) + 1};
   ParticleWriter(scratch.path(), scene).write_step(0, snapshot(p));
   EXPECT_EQ(ParticleReader(scratch.path()).step(0).id, p.id);
@@ -74,7 +74,7 @@ TEST(Particles, IdsKeepAllTheirBits) {
 
 TEST(Particles, TheStepIsFoundByItsNameWithItsTimeAndTheSpecies) {
   const test::Scratch scratch;
-  ParticleWriter(scratch.path(), scene).write_step(0.125, snapshot(telling(3, 0)));
+  ParticleWriter(scratch.path(), scene).write_step(0.125, snapshot(telling_step(3, 0)));
   const OutputFile step(scratch.path() / "particles/000001.h5", {"polybed particles step", 1});
   EXPECT_THAT(step.names("step"), ElementsAre("id", "position", "radius", "species", "spin", "velocity"));
   EXPECT_EQ(step.attribute("step", "time_s"), 0.125);
@@ -90,7 +90,7 @@ TEST(Particles, TheStepIsFoundByItsNameWithItsTimeAndTheSpecies) {
 TEST(Particles, NumbersThatRepeatArePackedAndOthersAreNot) {
   const test::Scratch scratch;
   constexpr std::size_t count = 5000, bytes_of_vectors = 24 * count;
-  ParticleStep p = telling(count, 0);
+  ParticleStep p = telling_step(count, 0);
   for (std::size_t i = 0; i < count; ++i) {
     p.velocity[i] = p.spin[i] = {0, -1e-3 * double(i / 64), 0};
     for (double& x : p.position[i]) x = std::sin(12345.678 * x);
@@ -107,15 +107,15 @@ TEST(Particles, ResumingRemovesLaterStepsAndKeepsTheNumbers) {
   const test::Scratch scratch;
   {
     ParticleWriter writer(scratch.path(), scene);
-    for (int n = 0; n < 4; ++n) writer.write_step(n, snapshot(telling(std::size_t(n) + 1, n)));
+    for (int n = 0; n < 4; ++n) writer.write_step(n, snapshot(telling_step(std::size_t(n) + 1, n)));
   }
   ParticleWriter writer(scratch.path(), scene, 1.0);
   EXPECT_THAT(ParticleReader(scratch.path()).times(), ElementsAre(0, 1));
   EXPECT_FALSE(fs::exists(scratch.path() / "particles/000003.h5"));
-  writer.write_step(7, snapshot(telling(9, 7)));
+  writer.write_step(7, snapshot(telling_step(9, 7)));
   const ParticleReader reader(scratch.path());
   EXPECT_THAT(reader.times(), ElementsAre(0, 1, 7));
-  expect_equal(reader.step(2), telling(9, 7));
+  expect_equal(reader.step(2), telling_step(9, 7));
   const std::string xdmf = xdmf_of(scratch.path());
   for (const char* count : {"1", "2", "9"})
     EXPECT_THAT(xdmf, HasSubstr("NumberOfElements=\"" + std::string(count) + "\""));
@@ -124,7 +124,7 @@ TEST(Particles, ResumingRemovesLaterStepsAndKeepsTheNumbers) {
 
 TEST(Particles, AnotherSceneIsNotContinued) {
   const test::Scratch scratch;
-  ParticleWriter(scratch.path(), scene).write_step(0, snapshot(telling(2, 0)));
+  ParticleWriter(scratch.path(), scene).write_step(0, snapshot(telling_step(2, 0)));
   ParticleScene other = scene;
   other.species[1] = "coarser";
   EXPECT_THROW(ParticleWriter(scratch.path(), other, 1.0), FileError);
@@ -136,7 +136,7 @@ TEST(Particles, AnotherSceneIsNotContinued) {
 
 TEST(Particles, ANewRunRemovesTheOldSteps) {
   const test::Scratch scratch;
-  ParticleWriter(scratch.path(), scene).write_step(0, snapshot(telling(2, 0)));
+  ParticleWriter(scratch.path(), scene).write_step(0, snapshot(telling_step(2, 0)));
   const ParticleWriter writer(scratch.path(), scene);
   EXPECT_TRUE(ParticleReader(scratch.path()).times().empty());
   EXPECT_FALSE(fs::exists(scratch.path() / "particles/000001.h5"));
@@ -146,7 +146,7 @@ TEST(Particles, ANewRunRemovesTheOldSteps) {
 TEST(Particles, NoNotANumberReachesTheDisk) {
   const test::Scratch scratch;
   ParticleWriter writer(scratch.path(), scene);
-  const ParticleStep good = telling(5, 0);
+  const ParticleStep good = telling_step(5, 0);
   for (int kind = 0; kind < 4; ++kind) {
     ParticleStep p = good;
     auto& spoilt = kind == 0 ? p.radius[3] : kind == 1 ? p.position[3][0] : kind == 2 ? p.velocity[3][1] : p.spin[3][2];
@@ -167,13 +167,13 @@ TEST(Particles, NoNotANumberReachesTheDisk) {
 TEST(Particles, WhatDoesNotFitTogetherIsRefused) {
   const test::Scratch scratch;
   ParticleWriter writer(scratch.path(), scene);
-  ParticleStep p = telling(4, 0);
+  ParticleStep p = telling_step(4, 0);
   p.spin.pop_back();
   EXPECT_THROW(writer.write_step(0, snapshot(p)), std::invalid_argument);
-  p = telling(4, 0);
+  p = telling_step(4, 0);
   std::swap(p.id[1], p.id[2]);
   EXPECT_THROW(writer.write_step(0, snapshot(p)), std::invalid_argument);
-  p = telling(4, 0);
+  p = telling_step(4, 0);
   p.species[2] = 2;
   EXPECT_THROW(writer.write_step(0, snapshot(p)), std::invalid_argument);
 }
@@ -181,14 +181,14 @@ TEST(Particles, WhatDoesNotFitTogetherIsRefused) {
 TEST(Particles, AFullDiskLeavesTheStepsBefore) {
   const test::Scratch scratch;
   ParticleWriter writer(scratch.path(), scene);
-  writer.write_step(0, snapshot(telling(3, 0)));
+  writer.write_step(0, snapshot(telling_step(3, 0)));
   {
     const test::FullDisk disk(2000);
-    EXPECT_THROW(writer.write_step(1, snapshot(telling(3, 1))), FileError);
+    EXPECT_THROW(writer.write_step(1, snapshot(telling_step(3, 1))), FileError);
   }
   const ParticleReader reader(scratch.path());
   EXPECT_EQ(reader.times().size(), 1u);
-  expect_equal(reader.step(0), telling(3, 0));
+  expect_equal(reader.step(0), telling_step(3, 0));
 }
 
 }  // namespace

@@ -32,7 +32,7 @@ std::string dry_case(const Lines& lines, const std::string& start =
 
 const std::string box = "sides = \"periodic\"\nends = \"periodic\"\ngravity = 0\n";
 
-std::string message_of(const std::string& text) {
+std::string refusal_of(const std::string& text) {
   try {
     (void)parse_case(text, "case.toml", {}, {});
   } catch (const CaseError& error) {
@@ -125,7 +125,7 @@ struct WrongLines {
 class WrongParticleCase : public testing::TestWithParam<WrongLines> {};
 
 TEST_P(WrongParticleCase, IsToldByItsKey) {
-  EXPECT_THAT(message_of(dry_case(GetParam().lines)), HasSubstr(GetParam().message));
+  EXPECT_THAT(refusal_of(dry_case(GetParam().lines)), HasSubstr(GetParam().message));
 }
 
 WrongLines column(const std::string& lines, const std::string& message) {
@@ -219,19 +219,19 @@ TEST(ParticleCase, TheFluidOfAShearedBoxIsItsFlow) {
   sheared.dem = "shear_rate = 2";
   std::string text = dry_case(sheared);
   text.replace(text.find("\"none\""), 6, "\"water\"\ntemperature = \"20 degC\"");
-  EXPECT_EQ(message_of(text), "") << "no inlet is asked for";
-  EXPECT_THAT(message_of(text + "\n[inlet]\nsuperficial_velocity = 0.1\n"),
+  EXPECT_EQ(refusal_of(text), "") << "no inlet is asked for";
+  EXPECT_THAT(refusal_of(text + "\n[inlet]\nsuperficial_velocity = 0.1\n"),
               HasSubstr("inlet.superficial_velocity cannot act in a sheared box"));
 }
 
 TEST(ParticleCase, EndsAreJoinedOnlyWithoutAFluid) {
   std::string text = dry_case({"ends = \"periodic\"", {}, {}, {}, {}, "[inlet]\nsuperficial_velocity = 0.1"});
   text.replace(text.find("\"none\""), 6, "\"water\"");
-  EXPECT_THAT(message_of(text), HasSubstr("column.ends = \"periodic\" is for particles without a fluid"));
+  EXPECT_THAT(refusal_of(text), HasSubstr("column.ends = \"periodic\" is for particles without a fluid"));
   Lines feed;
   feed.column = "ends = \"periodic\"";
   feed.more = "[[feed]]\nspecies = \"fine\"\nvelocity = 1\nsuperficial_velocity = 0.1";
-  EXPECT_THAT(message_of(dry_case(feed)), HasSubstr("column.ends = \"periodic\" and [[feed]] contradict"));
+  EXPECT_THAT(refusal_of(dry_case(feed)), HasSubstr("column.ends = \"periodic\" and [[feed]] contradict"));
 }
 
 TEST(ParticleCase, AnOpeningNeedsABottomAndNoFluid) {
@@ -240,14 +240,14 @@ TEST(ParticleCase, AnOpeningNeedsABottomAndNoFluid) {
   EXPECT_EQ(parse_case(dry_case(lines), "case.toml", {}, {}).dem.opening, 0.01);
   std::string wet = dry_case(lines) + "\n[inlet]\nsuperficial_velocity = 0.1\n";
   wet.replace(wet.find("\"none\""), 6, "\"water\"\ntemperature = \"20 degC\"");
-  EXPECT_THAT(message_of(wet),
+  EXPECT_THAT(refusal_of(wet),
               HasSubstr("dem.opening = 0.01 m: a fluid enters there, and particles leave through the top alone"));
   lines.column = "ends = \"periodic\"";
-  EXPECT_THAT(message_of(dry_case(lines)), HasSubstr("leaves no bottom to open"));
+  EXPECT_THAT(refusal_of(dry_case(lines)), HasSubstr("leaves no bottom to open"));
   std::string solid = dry_case(lines);
   solid.replace(solid.find("size = [0.06, 0.6]\ncells = [12, 120]"), 37,
                 "size = [0.06, 0.01, 0.6]\ncells = [12, 6, 120]\n");
-  EXPECT_THAT(message_of(solid), HasSubstr("narrower than the bottom, which is 0.01 m deep"));
+  EXPECT_THAT(refusal_of(solid), HasSubstr("narrower than the bottom, which is 0.01 m deep"));
 }
 
 const std::string closed = "closed = true\n";
@@ -267,7 +267,7 @@ std::string message_in_fluid(const std::string& column, const std::string& dem, 
 
 TEST(ParticleCaseInAFluid, IsHeldOnlyInAFluid) {
   EXPECT_EQ(message_in_fluid(closed, "held = true", ""), "");
-  EXPECT_THAT(message_of(dry_case({{}, {}, {}, {}, "held = true", {}})),
+  EXPECT_THAT(refusal_of(dry_case({{}, {}, {}, {}, "held = true", {}})),
               HasSubstr("dem.held = true is a fixed bed for a fluid"));
 }
 
@@ -279,7 +279,7 @@ TEST(ParticleCaseInAFluid, IsTiltedOnlyWhereNothingFlowsInAndDensityIsConstant) 
   std::string gas =
       dry_case({tilted + "closed = true", "temperature = 300\nequation_of_state = \"ideal_gas\"", {}, {}, {}, {}});
   gas.replace(gas.find("\"none\""), 6, "\"air\"");
-  EXPECT_THAT(message_of(gas), HasSubstr("column.gravity_direction other than down and a compressible fluid"));
+  EXPECT_THAT(refusal_of(gas), HasSubstr("column.gravity_direction other than down and a compressible fluid"));
 }
 
 TEST(ParticleCaseInAFluid, HasATemperatureOnlyWithOne) {
@@ -318,7 +318,7 @@ TEST_F(CaseWithAList, TakesTheOneOfTheWorkingDirectoryFirst) {
 TEST_F(CaseWithAList, ThatIsFedNeedsThePackingOfTheFeed) {
   Lines lines;
   lines.more = "[[feed]]\nspecies = \"fine\"\nvelocity = 1\nsuperficial_velocity = 0.1";
-  EXPECT_THAT(message_of(dry_case(lines, "start = \"list:beads.csv\"\n")), HasSubstr("bed.solids_fraction is missing"));
+  EXPECT_THAT(refusal_of(dry_case(lines, "start = \"list:beads.csv\"\n")), HasSubstr("bed.solids_fraction is missing"));
 }
 
 TEST_F(CaseWithAList, MayCountItsParticlesOfClassesOfSize) {
