@@ -53,6 +53,17 @@ class Series:
         return (self[n] for n in range(len(self)))
 
 
+def kinds_among(names: list[str]) -> dict[str, list[str]]:
+    """Species, each with its size classes, found by their names: name.1, name.2, ..."""
+    found: dict[str, list[str]] = {}
+    for name in names:
+        whole = name.rpartition(".")[0]
+        classes = list(takewhile(names.__contains__, (f"{whole}.{n}" for n in count(1))))
+        is_class = whole not in names and len(classes) > 1 and name in classes
+        found.setdefault(whole if is_class else name, []).append(name)
+    return found
+
+
 class Run:
     """A run directory. Fields are attributes (run.voidage, run.u_fluid, run.phi_<name>) or run.field(name)."""
 
@@ -142,7 +153,7 @@ class Run:
     def card(self) -> dict[str, Any]:
         """The result card, `card` of run.json: bed height and pressure drop with their intervals, whether the bed is steady, ...; empty if
         there is none yet. Keys end in their unit; what a case lacks is None."""
-        return self.record.get("card") or {}
+        return quantities.Named(f"the card of {self.directory}", self.record.get("card") or {})
 
     @property
     def species(self) -> list[str]:
@@ -154,14 +165,7 @@ class Run:
     @property
     def kinds(self) -> dict[str, list[str]]:
         """The species as the case names them, each with its size classes: {"sand": ["sand.1", "sand.2"], "fines": ["fines"]}."""
-        names = self.species
-        found: dict[str, list[str]] = {}
-        for name in names:
-            whole = name.rpartition(".")[0]
-            classes = list(takewhile(names.__contains__, (f"{whole}.{n}" for n in count(1))))
-            is_class = whole not in names and len(classes) > 1 and name in classes
-            found.setdefault(whole if is_class else name, []).append(name)
-        return found
+        return kinds_among(self.species)
 
     @property
     def history(self) -> dict[str, np.ndarray]:
@@ -180,7 +184,7 @@ class Run:
                     raise ValueError(f"line {number} has {len(row)} entries for {len(names)} columns")
             table = np.array(rows, dtype=float).reshape(len(rows), len(names))
             rising(table[:, names.index("time_s")], "time_s")
-        return {name: table[:, n] for n, name in enumerate(names)}
+        return quantities.Named(f"the history of {self.directory}", {name: table[:, n] for n, name in enumerate(names)})
 
     @property
     def profiles(self) -> dict[str, np.ndarray]:

@@ -6,7 +6,9 @@ from polybed.drawing.maps import walls_of
 from polybed.drawing.style import COLOURS, FEW_SOLIDS, around_axis, as_shown, faces_across, in_plane, length_unit, vector_in_plane
 from polybed.drawing.units import fitting
 from polybed.particles import step_shown
+from polybed.read import kinds_among
 from polybed.record import case_of
+from polybed.report.classes import SUMS, mean_over, parts_of
 from polybed.report.pack import EMPTY, changes, levels, packed, plain_numbers, thinned
 
 MOST_CELLS = 40_000  # of one map; a finer one is averaged
@@ -25,22 +27,26 @@ def coarse(values, share):
 
 
 def names_of(run):
-    """(field, label, kind) of the maps."""
-    found = [(f"phi_{name}", name, "solids") for name in run.species] + [("voidage", "fluid", "voidage")]
-    found += [(f"u_{name}", name, "velocity") for name in (*run.species, "fluid")]
-    return [entry for entry in found if entry[0] in run.fields]
+    """(field, label, kind) of the maps; a species with size classes has one map of each kind for all of them."""
+    found = [(f"phi_{name}", name, "solids") for name in run.kinds] + [("voidage", "fluid", "voidage")]
+    found += [(f"u_{name}", name, "velocity") for name in (*run.kinds, "fluid")]
+    return [entry for entry in found if set(parts_of(run, entry[0])) <= set(run.fields)]
 
 
 def read_maps(run, chosen, share):
-    """Of each field its maps [step][y][x]; velocities upwards, and none where their species is absent."""
+    """The maps [step][y][x] of each field; velocities upwards, and none where their species is absent."""
     names = names_of(run)
-    maps = {name: [] for name, _, _ in names}
+    parts = {name: parts_of(run, name) for name, _, _ in names}
+    maps = {name: [] for name in parts}
     for step in chosen:
-        fields = run.fields_at(int(step), list(maps))
+        fields = run.fields_at(int(step), [one for of_map in parts.values() for one in of_map])
         for name, label, kind in names:
-            plane = vector_in_plane(fields[name])[..., 1] if kind == "velocity" else in_plane(fields[name])
-            if kind == "velocity" and f"phi_{label}" in fields:
-                plane = np.where(in_plane(fields[f"phi_{label}"]) > FEW_SOLIDS, plane, np.nan)
+            planes = [vector_in_plane(fields[one])[..., 1] if kind == "velocity" else in_plane(fields[one]) for one in parts[name]]
+            if kind == "velocity" and f"phi_{label}" in parts:
+                shares = [in_plane(fields[one]) for one in parts[f"phi_{label}"]]
+                plane = np.where(sum(shares) > FEW_SOLIDS, mean_over(planes, shares), np.nan)
+            else:
+                plane = sum(planes)
             maps[name].append(coarse(np.ma.filled(as_shown(run, plane), np.nan), share).astype(np.float32))
     return {name: np.stack(rows) for name, rows in maps.items()}
 
@@ -70,7 +76,7 @@ def maps_of(run):
     """The maps for JSON, with the slider's times; None of a run without fields."""
     if len(run.time) == 0 or not names_of(run):
         return None
-    cells = in_plane(run.field(names_of(run)[0][0])[0]).shape[:2]
+    cells = in_plane(run.field(parts_of(run, names_of(run)[0][0])[0])[0]).shape[:2]
     share = max(1, int(np.ceil(np.sqrt(cells[0] * cells[1] / MOST_CELLS))))
     share = min(share, *cells)
     bytes_of_step = len(names_of(run)) * (cells[0] // share) * (cells[1] // share)
@@ -94,6 +100,7 @@ def maps_of(run):
     notes = [f"{len(chosen)} of {len(run.time)} stored times"] if len(chosen) < len(run.time) else []
     notes += [f"each pixel is the mean of {share} x {share} cells"] if share > 1 else []
     notes += ["the plane at half depth"] if run.dimensions == 3 else ["both sides of the axis"] if around_axis(run) else []
+    notes += [SUMS] if len(run.kinds) < len(run.species) else []
     if "solids" in scales and any(np.nanmax(values) > 1.1 * scales["solids"][1] for name, values in maps.items() if name.startswith("phi_")):
         notes.append("the scale of the solids fraction is that of the later half")
     return {"time": plain_numbers(run.time[chosen]), "nx": nx, "ny": rows, "size": size, "maps": found, "note": "; ".join(notes),
@@ -128,12 +135,18 @@ def properties(steps, ids):
     return species, radius
 
 
+def kind_numbers(species):
+    """The number of its kind, by the number of a species: size classes share one."""
+    return np.array([n for n, classes in enumerate(kinds_among(species).values()) for _ in classes], np.uint8)
+
+
 def packed_particles(run, chosen, share):
     """Every share-th particle at the chosen steps, as they stand in the page."""
     steps = [run.particles[int(n)] for n in chosen]
     ids = np.unique(np.concatenate([step.id for step in steps]))[::share]
     places, low, high, speed = positions_of(run, steps, ids)
     species, radius = properties(steps, ids)
+    species = kind_numbers(run.particles.species)[species]
     heights = places[..., 1][places[..., 1] != 65535]
     highest = heights.max() / 65534 if len(heights) else 0
     most = float(np.nanquantile(speed, 0.99)) if np.isfinite(speed).any() else 0.0
@@ -196,11 +209,11 @@ def particles_of(run):
             share *= 2
     notes = [f"{len(chosen)} of {count} stored times"] if len(chosen) < count else []
     notes += [f"one particle in {share}"] if share > 1 else []
-    factor, outlines = length_unit(run)[0], outlines_of(run)
+    factor, outlines, names = length_unit(run)[0], outlines_of(run), list(kinds_among(run.particles.species))
     size = run.particles.size * factor
     walls = max((float(line[:, 1].max()) * factor for line in outlines), default=0.0)
     size[1] = min(size[1], max(1.1 * found["top"], 0.25 * size[0], walls))  # a bed in a tall column is not to be a strip at the bottom
     return found | {"time": plain_numbers(run.particles.time[chosen]), "open": float(run.particles.time[step_shown(run.particles.count)]),
-                    "names": run.particles.species, "size": [float(v) for v in size],
+                    "names": names, "size": [float(v) for v in size],
                     "outlines": [[plain_numbers(point * factor) for point in line] for line in outlines],
-                    "colours": [COLOURS[n % len(COLOURS)] for n in range(len(run.particles.species))], "note": "; ".join(notes)}
+                    "colours": [COLOURS[n % len(COLOURS)] for n in range(len(names))], "note": "; ".join(notes)}

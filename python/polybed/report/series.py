@@ -6,6 +6,7 @@ from polybed.drawing.style import COLOURS, GREY, levels
 from polybed.drawing.units import fitting
 from polybed.outflow import discharge_rate, mass_out, recovery
 from polybed.quantities import unit_of_field
+from polybed.report.classes import mean_over, parts_of
 from polybed.report.pack import fine_levels, packed, plain_numbers, thinned
 
 MOST_ROWS = 1200  # of a history in a page
@@ -37,13 +38,13 @@ def panel(title, unit, lines, zero=True, note=""):
 def of_species(run, title, unit, values, note=""):
     """A panel with a curve for each species in `values`; none without any."""
     t = run.history["time_s"]
-    lines = [line(name, t, values[name], n) for n, name in enumerate(run.species) if name in values]
+    lines = [line(name, t, values[name], n) for n, name in enumerate(run.kinds) if name in values]
     return [panel(title, unit, lines, note=note)] if lines else []
 
 
 def height_panel(run):
     history, t = run.history, run.history["time_s"]
-    lines = [line(f"centre of {name}", t, history[f"centre_{name}_m"], n) for n, name in enumerate(run.species)
+    lines = [line(f"centre of {name}", t, history[f"centre_{name}_m"], n) for n, name in enumerate(run.kinds)
              if f"centre_{name}_m" in history]
     lines += [line(label, t, history[column], dash=DASHES[n % len(DASHES)]) for n, (column, label, _) in enumerate(levels(history))]
     return [panel("height", "m", lines)] if lines else []
@@ -59,7 +60,7 @@ def balance_panel(run):
 
 
 def outflow_panels(run):
-    history, species = run.history, run.species
+    history, species = run.history, run.kinds
     found = of_species(run, "left the column", "kg", mass_out(history, species))
     found += of_species(run, "recovery", "1", recovery(history, species),
                         "what has left over what was there at the start or has been fed since")
@@ -91,15 +92,21 @@ def history_of(run):
 
 def curves(run, profiles, chosen, title, kind, extra):
     """Profiles of one kind of every species, and of `extra` (name, label), at the chosen times; None without any."""
-    names = [(f"{kind}_{name}", name, n) for n, name in enumerate(run.species) if f"{kind}_{name}" in profiles]
-    names += [(name, label, None) for name, label in extra if name in profiles]
+    values, names = {}, []
+    for n, species in enumerate(run.kinds):
+        parts, shares = ([profiles[one][chosen] for one in parts_of(run, f"{of}_{species}") if one in profiles] for of in (kind, "phi"))
+        if not parts or len(parts) < len(run.kinds[species]):
+            continue
+        names.append((f"{kind}_{species}", species, n))
+        values[f"{kind}_{species}"] = sum(parts)
+        if kind in ("u", "theta") and len(shares) == len(parts):
+            values[f"{kind}_{species}"] = np.where(sum(shares) > 0.01, mean_over(parts, shares), np.nan)
+    for name, label in extra:
+        if name in profiles:
+            names.append((name, label, None))
+            values[name] = profiles[name][chosen]
     if not names:
         return None
-    values = {name: profiles[name][chosen] for name, _, _ in names}
-    if kind in ("u", "theta"):
-        for name, species, n in names:
-            if n is not None and f"phi_{species}" in profiles:
-                values[name] = np.where(profiles[f"phi_{species}"][chosen] > 0.01, values[name], np.nan)
     factor, unit = fitting(unit_of_field(names[0][0]), greatest(values.values()))
     finite = np.concatenate([v[np.isfinite(v)].ravel() for v in values.values()] + [np.zeros(1)]) * factor
     # what has fallen below an opening is counted with the lowest layer, whose voidage may then be below 0

@@ -216,6 +216,7 @@ class Noise:
         self.generator = np.random.default_rng(1)
         self.time, self.cells = np.linspace(0, 1, steps), cells
         self.species = [f"s{n}" for n in range(species)]
+        self.kinds = {name: [name] for name in self.species}
         self.fields = [*(f"phi_{name}" for name in self.species), *(f"u_{name}" for name in self.species), "voidage", "u_fluid"]
         self.faces = {"x": np.linspace(0, 0.1, cells[1] + 1), "y": np.linspace(0, 0.3, cells[0] + 1)}
         self.size, self.dimensions, self.record, self.open = (0.1, 0.3), 2, {}, None
@@ -306,7 +307,7 @@ class Outflow(unittest.TestCase):
         self.assertEqual(len(outflow.discharge_rate(self.history, ["fine"])[0]), 0)
 
     def test_panels(self):
-        run = types.SimpleNamespace(history=self.history, species=["fine"])
+        run = types.SimpleNamespace(history=self.history, species=["fine"], kinds={"fine": ["fine"]})
         self.assertEqual([p["title"] for p in series.outflow_panels(run)], ["left the column (kg)", "recovery", "discharge rate (g/s)"])
 
 
