@@ -41,12 +41,16 @@ def keys_of(run: Run) -> dict[str, Any]:
 
 
 def table(runs: Iterable[Run]) -> pd.DataFrame:
-    """A row for each run: the keys in which the cases differ, the state of the run, and the numbers and words of its card, a mean with
-    its interval as two columns. The index is the folder."""
+    """A row for each run: the keys in which the cases differ, the model if the runs are of both, the state of the run, and the numbers and
+    words of its card, a mean with its interval as two columns. The index is the folder."""
     each = list(runs)
     keys = [keys_of(run) for run in each]
     differ = [key for key in dict.fromkeys(itertools.chain(*keys)) if any(one.get(key) != keys[0].get(key) for one in keys)]
-    rows = [{key: own.get(key) for key in differ} | {"run_state": run.record.get("state")} | dict(card_of(run.card)) for run, own in zip(each, keys)]
+    of_both = len({run.record.get("model") for run in each}) > 1
+    rows = []
+    for run, own in zip(each, keys):
+        model = {"model": run.record.get("model")} if of_both else {}
+        rows.append({key: own.get(key) for key in differ} | model | {"run_state": run.record.get("state")} | dict(card_of(run.card)))
     return pd.DataFrame(rows, index=pd.Index([str(run.directory) for run in each], name="run"))
 
 

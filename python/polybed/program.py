@@ -27,7 +27,7 @@ from polybed.files import FAULTS, read_json
 from polybed.overrides import Overrides, Value, plain, toml, words
 from polybed.progress import BarOfRuns, put, redrawn
 from polybed.read import Run, read
-from polybed.runner import call, program, side_by_side, sources
+from polybed.runner import call, has_checkpoint, program, side_by_side, sources
 from polybed.solids_table import SolidsTable, read_table
 
 Place = str | os.PathLike[str]  # of a file or a folder
@@ -115,52 +115,57 @@ def check(case: Place, overrides: Overrides | None = None, until: Value | None =
 
 
 def made(case: Place, model: str, overrides: Overrides | None, until: Value | None, ranks: int,
-         tell: Callable[[str], None] | None, place: Callable[[str], Path]) -> Run:
-    """Opens the run that is in a folder, or makes it. place: the folder by the hash of the resolved case."""
+         tell: Callable[[str], None] | None, place: Callable[[str], Path], resume: bool = False) -> Run:
+    """Opens the run that is in a folder, or makes it. place: the folder by the hash of the resolved case; resume: from its checkpoint"""
     if model not in MODELS:
         raise ValueError(f"there is no model {model!r}; there are {', '.join(MODELS)}")
     text, digest = resolved(case, overrides, until)
     output = place(digest[:DIGITS])
     if not finished(output, model, text):
-        call(model, case, *settings(overrides, until), "-o", output, "--force", "--no-picture", ranks=ranks, tell=tell)
+        begin = "--resume" if resume and has_checkpoint(output) else "--force"
+        call(model, case, *settings(overrides, until), "-o", output, begin, "--no-picture", ranks=ranks, tell=tell)
     return read(output)
 
 
 @names_itself
 def run(case: Place, model: str = "tfm", overrides: Overrides | None = None, output: Place | None = None, until: Value | None = None,
-        ranks: int = 1, quiet: bool = False, label: str = "") -> Run:
+        ranks: int = 1, quiet: bool = False, label: str = "", resume: bool = False) -> Run:
     """Runs a case by a model, "tfm" or "dem", and opens the run.
 
     overrides: keys of the case file with their values, {"tfm.rtol": 1e-4, "species.fine.diameter": "1 mm"}
     output: run directory, where another run is replaced, and reading that one raises ReplacedError from then on; by default
     runs/<case name>-<model>-<hash of the resolved case>, so that no run replaces another
     quiet: shows no progress; label: stands before each line of it
+    resume: continues from the checkpoint in the folder, if there is one, as `--resume` does: after a run was killed, or with a longer `until`
     """
     return made(case, model, overrides, until, ranks, teller(quiet, label),
-                lambda digest: Path(output) if output else folder_of(case, model, digest))
+                lambda digest: Path(output) if output else folder_of(case, model, digest), resume)
 
 
 @names_itself
 def sweep(case: Place, key: str | Mapping[str, Iterable[Value]], values: Iterable[Value] = (), model: str = "tfm",
           overrides: Overrides | None = None, output: Place | None = None, until: Value | None = None, at_once: int = 1,
-          quiet: bool = False) -> list[Run]:
+          quiet: bool = False, resume: bool = False) -> list[Run]:
     """Runs a case for several values of a key and returns the runs in their order, each in a folder of its own, called by the value
     and the hash of its case. With {key: values} for several keys it runs all combinations, the last key first; see polybed.table.
 
     values: numbers in SI, texts with a unit, or an array along its first axis; until: simulated time, "20 s" or seconds
     at_once: how many run side by side; unless quiet, a bar says how far they are, or, where standard error is no terminal and no notebook, lines
+    resume: continues runs that were killed from their checkpoints; finished runs are opened in any case
     """
     axes = {key: values} if isinstance(key, str) else key
     each, done = [dict(zip(axes, point)) for point in itertools.product(*map(list, axes.values()))], itertools.count(1)
     folder = Path(output) if output else Path("runs") / f"{name_of(case)}-{model}-sweep"
     bar = BarOfRuns(len(each)) if redrawn() and not quiet else None
+    last = [key.rpartition(".")[2] for key in axes]
+    called = {key: end if last.count(end) == 1 else key for key, end in zip(axes, last)}
 
     def one(number: int) -> Run:
         point = each[number]
-        shown = ", ".join(f"{key}-{toml(plain(value, key))}" for key, value in point.items()).replace('"', "")[:60]
+        shown = ", ".join(f"{called[key]} {toml(plain(value, key))}" for key, value in point.items()).replace('"', "")[:100]
         name = "".join(c if c.isalnum() or c in ".-" else "_" for c in shown)
         tell = bar.hearer(number, shown) if bar else teller(quiet, shown)
-        found = made(case, model, dict(overrides or {}) | point, until, 1, tell, lambda digest: folder / f"{name}-{digest}")
+        found = made(case, model, dict(overrides or {}) | point, until, 1, tell, lambda digest: folder / f"{name}-{digest}", resume)
         if bar:
             bar.finish(number)
         else:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import difflib
 import json
 import pathlib
+from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -63,6 +64,24 @@ def unit_of_field(name: str) -> str:
     return "1"
 
 
+def unknown(where: object, name: str, known: Iterable[str]) -> KeyError:
+    """The error for a name that is not there: what it could mean, and the names that there are."""
+    names = list(known)
+    near = difflib.get_close_matches(name, names, 1)
+    return KeyError(f"{where} has no {name}{f'; did you mean {near[0]}?' if near else ''}; it has {', '.join(names)}")
+
+
+class Named(dict[str, Any]):
+    """A dictionary of a run, whose error for a missing key names those that there are."""
+
+    def __init__(self, where: object, entries: Mapping[str, Any]) -> None:
+        super().__init__(entries)
+        self.where = where
+
+    def __missing__(self, name: str) -> Any:
+        raise unknown(self.where, name, self)
+
+
 def find(run: Run, name: str, source: str | None = None) -> Quantity:
     """A quantity of a run: of its history, where the unit at the end of a column's name may be left out ("bed_height"), of its
     profiles, or of its fields. The first that has it, unless a source is named."""
@@ -73,9 +92,7 @@ def find(run: Run, name: str, source: str | None = None) -> Quantity:
         quantity = look(run, name) if source in (None, key) else None
         if quantity is not None:
             return quantity
-    known = names(run)
-    near = difflib.get_close_matches(name, known, 1)
-    raise KeyError(f"{run.directory} has no {name}{f'; did you mean {near[0]}?' if near else ''}; it has {', '.join(known)}")
+    raise unknown(run.directory, name, names(run))
 
 
 def of_history(run: Run, name: str) -> Quantity | None:

@@ -28,13 +28,15 @@ def measure(run: Run | Place) -> dict[str, Any]:
     return found
 
 
-def table(runs: Iterable[Run | Place]) -> Any:
-    """Runs as a pandas.DataFrame with a row each: the keys in which their cases differ, the state of the run, and its card.
+def table(runs: Iterable[Run | Place] | Run | Place) -> Any:
+    """Runs as a pandas.DataFrame with a row each: the keys in which their cases differ, the model if there are both, the state of the run,
+    and its card.
 
-    runs: runs, or their directories, as `polybed.sweep` returns them
+    runs: runs, or their directories, as `polybed.sweep` returns them; also a single one
     """
     from polybed import frames
-    return frames.table(run if isinstance(run, Run) else read(run) for run in runs)
+    each: Iterable[Run | Place] = [runs] if isinstance(runs, Run | str | os.PathLike) else runs
+    return frames.table(run if isinstance(run, Run) else read(run) for run in each)
 
 
 @names_itself

@@ -43,10 +43,37 @@ class Results(Scratch):
         self.assertEqual(list(table.index), [str(run.directory) for run in runs])
         self.assertEqual(list(table.columns[:2]), ["species.fine.diameter", "inlet.superficial_velocity"])
         np.testing.assert_allclose(table[list(grid)], [[u, d] for u in (0.02, 0.03) for d in (8e-4, 9e-4)], rtol=1e-12)
+        self.assertRegex(str(runs[0].directory), r"/superficial_velocity_20_mm_s__diameter_0\.8_mm-\w{10}$")
+        self.assertEqual(len(polybed.table(runs[0])), 1)
         for run, row in zip(runs, table.itertuples()):
             self.assertEqual((row.run_state, row.state), ("done", run.card["state"]))
             self.assertEqual(row.bed_height_m, run.card["bed_height_m"]["value"])
         self.assertRegex(runs[0]._repr_html_(), rf"Run in {runs[0].directory} by tfm.*<td>bed</td><td>{runs[0].card['state']}, mixed, .* mm high")
+
+    def test_a_table_of_both_models_names_them(self):
+        both = [polybed.run(CASE, model, SHORT, self.folder / model, "2 ms", quiet=True) for model in ("tfm", "dem")]
+        self.assertEqual(list(polybed.table(both)["model"]), ["tfm", "dem"])
+        self.assertNotIn("model", polybed.table(both[:1]))
+
+    def test_a_wrong_name_is_answered_with_the_right_one(self):
+        run = self.run_short()
+        for place, kind in ((run.history, "history"), (run.card, "card")):
+            with self.assertRaisesRegex(KeyError, f"the {kind} of {run.directory} has no bed_height; did you mean bed_height_m"):
+                place["bed_height"]
+
+    def test_a_run_goes_on_from_its_checkpoint_if_asked_to(self):
+        """The second run is twice as long; without `resume` the folder would be replaced and the history begin anew."""
+        folder, keys = self.folder / "run", SHORT | {"output.checkpoint_every": "1 ms"}
+        polybed.run(CASE, "tfm", keys, folder, "4 ms", quiet=True)
+        before = (folder / "history.csv").read_text()
+        with contextlib.redirect_stderr(io.StringIO()) as shown:
+            run = polybed.run(CASE, "tfm", keys, folder, "8 ms", resume=True)
+        self.assertRegex(shown.getvalue(), r"(?m)^t 0\.00[4-8]/0\.008 s")
+        self.assertNotRegex(shown.getvalue(), r"(?m)^t 0\.00[0-3]")
+        self.assertTrue((folder / "history.csv").read_text().startswith(before))
+        self.assertAlmostEqual(run.history["time_s"][-1], 8e-3)
+        swept = polybed.sweep(CASE, "tfm.rtol", [1e-3], overrides=keys, output=self.folder / "new", until="2 ms", quiet=True, resume=True)
+        self.assertEqual(swept[0].record["state"], "done", "without a checkpoint a run begins")
 
     def test_a_check_is_what_the_program_says(self):
         found = polybed.check(CASE, {"inlet.superficial_velocity": "20 mm/s"})
@@ -99,8 +126,8 @@ class Results(Scratch):
         with contextlib.redirect_stderr(io.StringIO()) as shown:
             runs = polybed.sweep(CASE, "inlet.superficial_velocity", np.array([0.02, 0.03]), overrides=SHORT, output=self.folder, until="2 ms")
         self.assertEqual([run.record["state"] for run in runs], ["done", "done"])
-        self.assertIn("1 of 2 runs done: inlet.superficial_velocity-0.02\n", shown.getvalue())
-        self.assertIn("2 of 2 runs done: inlet.superficial_velocity-0.03\n", shown.getvalue())
+        self.assertIn("1 of 2 runs done: superficial_velocity 0.02\n", shown.getvalue())
+        self.assertIn("2 of 2 runs done: superficial_velocity 0.03\n", shown.getvalue())
 
     def test_a_cost_is_what_the_command_writes(self):
         found = polybed.cost(CASE, "tfm", ("rtol",), budget="120s", output=self.folder / "cost", until="30 ms", quiet=True)
