@@ -114,12 +114,15 @@ class Wheel(unittest.TestCase):
             # --no-index: what Debian's packages lack is an error, not a download
             done(folder / "bin/pip", "install", "--no-build-isolation", "--no-index", ".", cwd=sources)
             script = (f"import polybed; assert polybed.__file__.startswith('{folder}'), polybed.__file__; print(polybed.__version__); "
-                      f"print(polybed.inversion('{ROOT}/cases/small-binary/case.toml')['velocity_m_s'])")
+                      f"case = '{ROOT}/cases/small-binary/case.toml'; print(polybed.check(case)['expected']['bed_height_m']); "
+                      "run = polybed.run(case, 'tfm', {'output.history_every': '2 ms'}, until='10 ms', quiet=True); "
+                      "print(run.history['bed_height_m'][-1])")
             bare = {name: value for name, value in os.environ.items() if name not in ("PYTHONPATH", "POLYBED")}
             (sources / "build/polybed").symlink_to(program.PROGRAM)  # the program that is built in the sources is found
-            version, velocity = done(folder / "bin/python", "-c", script, cwd=scratch, env=bare).split()
+            version, expected, height = done(folder / "bin/python", "-c", script, cwd=scratch, env=bare).split()
             self.assertEqual(version, __version__)
-            self.assertGreater(float(velocity), 0)
+            self.assertGreater(float(expected), 0)
+            self.assertGreater(float(height), 0)
 
 
 if __name__ == "__main__":
