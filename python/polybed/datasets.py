@@ -35,7 +35,7 @@ class Stored(BackendArray):
         return indexing.explicit_indexing_adapter(key, self.shape, indexing.IndexingSupport.OUTER_1VECTOR, self.values)
 
     def values(self, key: tuple[Any, ...]) -> np.ndarray:
-        """Of the times that a key names, the part that it names."""
+        """The values at the times that a key names."""
         series = self.run.field(self.name)
         times = np.arange(len(series))[key[0]]
         if np.ndim(times) == 0:

@@ -49,7 +49,7 @@ def guarded(work, stopped="stopped by the user"):
 
 
 def made(paths):
-    """Of a command that makes files, by `paths`, which returns where they are: prints that, or what is wrong; returns the exit code."""
+    """Runs `paths`, which makes files and returns where they are. Prints the paths, or what is wrong; returns the exit code."""
     def work():
         answer("\n".join(map(str, paths())))
         return DONE

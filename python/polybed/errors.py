@@ -14,7 +14,7 @@ PACKAGE = Path(__file__).resolve().parent
 
 
 class PlainError(Exception):
-    """Its text, which may quote a file, acts on no terminal."""
+    """An error whose text can quote a file: control characters are removed from it."""
 
     def __init__(self, text: str) -> None:
         super().__init__(plain(text))
@@ -25,8 +25,8 @@ class PlainError(Exception):
 
 
 class ProgramError(PlainError):
-    """The program ended with another code than 0. The text names the function that was called and what the program said; `words` is
-    the command behind it."""
+    """The program ended with a code other than 0. The text names the function that was called and quotes the message of the program;
+    `words` is the command line."""
 
     def __init__(self, words: list[str], code: int, said: str, called: str = "polybed") -> None:
         super().__init__(f"{called} ended with {code}: {said.strip()}")
@@ -38,7 +38,7 @@ class NoProgramError(PlainError, FileNotFoundError):
 
 
 class StudyError(PlainError):
-    """A study cannot go on. The text is for its user, empty where the program has said it; the code is what the command ends with."""
+    """A study cannot continue. The text is for the user, and empty if the program has printed it; `code` is the exit code of the command."""
 
     def __init__(self, code: int, text: str = "") -> None:
         super().__init__(text)
@@ -46,7 +46,7 @@ class StudyError(PlainError):
 
 
 def shown(error: BaseException) -> str:
-    """The error in a line, and in another the line of the user's that has called the package."""
+    """The error in one line, and in a second one the line of the user that called the package."""
     frames = traceback.extract_tb(error.__traceback__)
     users = list(itertools.takewhile(lambda frame: PACKAGE not in Path(frame.filename).parents, frames))
     where = f"\n  {users[-1].filename}:{users[-1].lineno}: {users[-1].line}" if users and users[-1].line else ""

@@ -39,7 +39,7 @@ def save(figure, path):
 
 
 def stored_times(run):
-    """Of the particles where there are some, else of the fields."""
+    """The stored times of the particles; of the fields if there are no particles."""
     return run.particles.time if len(run.particles) else run.time
 
 

@@ -52,6 +52,6 @@ class Plan:
         return [Point(self.regime, *place, self.case["binary"]) for place in itertools.product(*(self.axes[name] for name in AXES))]
 
     def boxes(self):
-        """Of every point its seeds; then, of those that are pushed, as many again."""
+        """The seeds of every point, then as many again of the points that are pushed."""
         boxes = [point._replace(seed=seed + 1) for point, seeds in zip(self.points(), self.seeds) for seed in range(seeds)]
         return boxes + [box._replace(pushed=True) for box in boxes if self.pushed]

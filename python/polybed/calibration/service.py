@@ -1,4 +1,4 @@
-"""What the program answers in a calibration, app/calibrate.cpp: the plan of a case, names of boxes, how a table reads."""
+"""The answers of the program in a calibration (app/calibrate.cpp): the plan of a case, names of boxes, how a table reads."""
 
 import contextlib
 import json
@@ -18,7 +18,7 @@ class Service:
 
     def ask(self, *words):
         """The answer to a question."""
-        with contextlib.suppress(BrokenPipeError):  # it has ended, which the answer shows
+        with contextlib.suppress(BrokenPipeError):  # the program has ended; reading its answer shows that
             self.questions.write(json.dumps(list(map(str, words)), ensure_ascii=False) + "\n")
             self.questions.flush()
         return self.answer()

@@ -40,7 +40,7 @@ def measure_on(keys, begin):
 
 
 def quantities_of(species):
-    """Of a case with these species."""
+    """The quantities of a case with these species."""
     def measure(name, unit, scale, row=None):
         return QuantityInfo(name, unit, HELP[row or name], scale)
 

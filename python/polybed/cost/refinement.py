@@ -1,4 +1,4 @@
-"""What a sequence of grids says of the grid that was not computed: order, limit and the grid convergence index."""
+"""Extrapolation from a sequence of grids: observed order, limit and grid convergence index."""
 
 from dataclasses import dataclass
 from math import log
@@ -9,10 +9,10 @@ SAFETY_IN_RANGE, SAFETY_ELSEWHERE = 1.25, 3
 
 @dataclass
 class Refined:
-    """What follows from three grids. Without an index the value is the finest one and the band is what the values scatter by."""
-    limit: float  # Richardson's value, or that of the finest grid
+    """The result of three grids. Without an index the limit is the finest value, and the band is the scatter of the values."""
+    limit: float  # Richardson's value, or the value on the finest grid
     band: float  # half-width about the limit
-    order: float | None = None  # p; None if the sequence does not fall into line
+    order: float | None = None  # p; None if the sequence is not monotone or does not converge
     safety: float = 0.0  # F_s
     fine_index: float | None = None  # GCI of grids 1 and 2, relative
     coarse_index: float | None = None  # of 2 and 3

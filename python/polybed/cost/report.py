@@ -14,7 +14,7 @@ from polybed.study.record import json_text
 
 @dataclass
 class SweepOf:
-    """Of which case a sweep is."""
+    """Names the case of a sweep."""
     path: str
     scene: object
     overrides: list

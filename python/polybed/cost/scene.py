@@ -31,7 +31,7 @@ class Scene:
         return self.keys[table].get(name, default)
 
     def law(self, role):
-        """The law of a role of [effects]; "none" if it is off."""
+        """The law of a role in [effects]; "none" if it is off."""
         return self.of(f"effects.{role}", "none")
 
     @property
@@ -45,7 +45,7 @@ class Scene:
 
     @property
     def is_tapered(self):
-        """Whether the balance of forces is another at each height."""
+        """Whether the balance of forces changes with height."""
         return self.of("column.profile") is not None
 
     @property
@@ -59,7 +59,7 @@ class Scene:
 
     @property
     def as_particles(self):
-        """Whether the particle model can run it, too, of a case that is also for the two-fluid model."""
+        """Whether the particle model, too, can run it."""
         return "dem" in self.needs
 
     def carried(self):

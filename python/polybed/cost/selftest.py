@@ -1,5 +1,5 @@
-"""The oracles of cost that need no run: what `polybed cost selftest` shows. What they examine of the program itself, the
-intervals of means, both integrators and the counting of particles into slabs, `polybed-hard` computes."""
+"""The tests of cost that need no run, for `polybed cost selftest`. `polybed-hard` computes the parts that test the program itself:
+intervals of means, both integrators, and the counting of particles into slabs."""
 
 import json
 from typing import NamedTuple
@@ -38,7 +38,7 @@ def k1():
 
 
 def k2(coverage):
-    """How often the interval of a mean has the truth: autoregressive series of mean 0."""
+    """How often the interval of a mean contains the true mean: autoregressive series of mean 0."""
     share = 100 * coverage
     return Oracle("K2", f"covers in {share:.1f} %", "93 to 97 %", 93 <= share <= 97)
 
@@ -53,7 +53,7 @@ def k3():
 
 
 def k4(settling):
-    """A particle settles: both integrators must buy error with work at the rate of their order."""
+    """A particle settles: the error of both integrators must fall with the work at their order."""
     slopes = []
     for name in ("explicit", "implicit"):
         law = fit_power_law(*zip(*((run["steps"], run["error"]) for run in settling[name])))
@@ -96,14 +96,14 @@ def course(rate, push):
 
 
 def k7():
-    """What is chaotic and what is not."""
+    """A chaotic system is told from one that is not."""
     first, second = (is_chaotic(course(rate, 0.0), course(rate, 1e-10)) for rate in (lorenz, damped))
     word = {True: "chaotic", False: "steady"}
     return Oracle("K7", f"Lorenz {word[first]}, damped {word[second]}", "chaotic, steady", first and not second)
 
 
 def k12():
-    """A sequence of grids that swings."""
+    """A sequence of grids that oscillates."""
     r = refine(1.0, 1.2, 1.1)
     return Oracle("K12", r.note if r.fine_index is None else "an index", "no index", r.fine_index is None and r.coarse_index is None)
 

@@ -16,7 +16,7 @@ STACKS = 3  # of rows side by side, so that the picture fits a screen
 
 
 def place_of(cell):
-    """(first column, number of columns): schemes of the two-fluid model have one each, what has no choice of schemes all of them."""
+    """(first column, number of columns): each scheme of the two-fluid model has one column, a case without a choice of schemes has all."""
     if cell["naive"]:
         return len(SCHEMES), 1
     return (SCHEMES.index(cell["scheme"]), 1) if cell["scheme"] in SCHEMES else (0, len(SCHEMES))
@@ -49,7 +49,7 @@ def draw_cell(axes, cell, place, row, colour):
 
 
 def draw_stack(axes, cases, rows, colour_of):
-    """Some of the cases below each other. :param rows: of the axes, so that all stacks have rows of one height"""
+    """Some of the cases below each other. rows: number of rows of the axes, so that all stacks have rows of one height"""
     for row, (_, cells) in enumerate(cases):
         for column in range(len(COLUMNS)):
             axes.add_patch(Rectangle((column, row), 1, 1, facecolor=EMPTY, edgecolor="white", linewidth=1))

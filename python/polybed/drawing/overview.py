@@ -59,7 +59,7 @@ def draw_history(axes, run, time):
 
 
 class Layout:
-    """Where everything stands, in inches: maps and profiles in a row, colour bars below them, the history last."""
+    """Positions in inches: maps and profiles in a row, colour bars below them, the history last."""
 
     LEFT, GAP, PROFILE, RIGHT, HEAD, BARS, HISTORY, LEGEND = 0.75, 0.45, 2.0, 0.25, 0.75, 0.95, 1.9, 1.9
 

@@ -67,12 +67,12 @@ def circles(axes, run, step, colours, most=MOST):
 
 
 def species_colours(run, step):
-    """Of each particle, the colour of its species."""
+    """The colour of each particle, by its species."""
     return np.array([COLOURS[n % len(COLOURS)] for n, classes in enumerate(run.kinds.values()) for _ in classes])[step.species]
 
 
 def speed(step):
-    """Of each particle, mm/s."""
+    """The speed of each particle, mm/s."""
     return np.sqrt((step.velocity**2).sum(axis=1)) * 1e3
 
 

@@ -17,9 +17,9 @@ from polybed.record import case_of, title_of_case
 
 COLOURS = ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9"]
 NAMES = {"tfm": "two-fluid", "dem": "particles"}  # of the models, beside each other
-LINES = ["-", "--", "-."]  # beyond six species the colours come again, in another line
+LINES = ["-", "--", "-."]  # beyond six species the colours repeat with another line
 LEVEL_LINES = ["--", ":", "-.", (0, (5, 1, 1, 1, 1, 1))]  # of levels in the bed
-INTERFACE = "interface_m"  # between two species; of three there is more than one
+INTERFACE = "interface_m"  # between two species; three have more than one
 TITLE = 90  # characters of a title in a picture
 GREY = "#555555"
 PALE = "#bbbbbb"
@@ -45,7 +45,7 @@ def species_line(n):
 
 
 def levels(history):
-    """(column, label, line) of each level in the bed that a history has somewhere: its height, the interface of two species."""
+    """(column, label, line) of each level with values in a history: bed height, interface of two species, ..."""
     lines = dict(zip(LEVELS, itertools.cycle(LEVEL_LINES)))
     species = sum(column.startswith("centre_") for column in history)
     return [(column, label, lines[column]) for column, label in LEVELS.items()
@@ -113,20 +113,20 @@ def greatest_fraction(run, steps):
 
 
 def state_of(run):
-    """What the title says of a run that is not done; empty for one that is."""
+    """The state of an unfinished run for the title; empty for a finished one."""
     state = run.record.get("state", "")
     return "" if state in ("", "done") else state.split(":")[0]
 
 
 def shortened(text):
-    """A title that fits above a picture, as plain text: no mark of it is read as mathematics."""
+    """A title that fits above a picture, as plain text: nothing in it is read as mathematics."""
     plain = " ".join(text.split()).replace("$", r"\$")
     return plain if len(plain) <= TITLE else plain[: TITLE - 1].rstrip() + "\u2026"
 
 
 def fitted(title, figure, size):
-    """A title as it fits above a figure, in letters of a size in points: what follows the name of the case goes below it where one line
-    is too long, and the name is cut where it is too long itself."""
+    """A title that fits above a figure, in letters of a size in points. The text after the name of the case goes to a second line if one
+    line is too long; a name that is too long is cut."""
     letters = int(figure.get_figwidth() * 72 / (0.56 * size))  # of the mean width of DejaVu Sans
     name, gap, rest = title.partition("   ")
     if len(title) <= letters or not gap:
@@ -135,7 +135,7 @@ def fitted(title, figure, size):
 
 
 def title_of(run, time=None, maps=False, digits=".4g"):
-    """What a picture shows, in a line; of maps of a 3-D run, that they are a plane of it."""
+    """What a picture shows, in one line; maps of a 3-D run are marked as one plane of it."""
     model = {"tfm": "two-fluid model", "dem": "discrete particles"}.get(run.record.get("model"), "")
     parts = [shortened(title_of_case(run.record) or run.directory.resolve().name), model, "" if time is None else f"t = {time:{digits}} s", state_of(run)]
     if maps and run.dimensions == 3:

@@ -33,7 +33,7 @@ class Point:
     error: np.ndarray  # standard errors of net; NaN where they are not known
 
     def key(self):
-        """Equal for points that say the same."""
+        """Equal for repeated points."""
         return (self.voidage, self.reynolds, *self.share, *self.diameter / self.diameter[0], *self.net)
 
 
@@ -62,7 +62,7 @@ class Lines:
         return f"{self.path}:{number}"
 
     def number(self, row, column, missing=None):
-        """A cell as a number. missing: what an empty cell, or a column that is not there, stands for; None refuses it"""
+        """A cell as a number. missing: the value of an empty cell or a missing column; None refuses it"""
         line, cells = row
         text = cells.get(column, "")
         if text == "" and missing is not None:
@@ -104,7 +104,7 @@ def one_size(lines, column):
 
 
 def any_sizes(lines):
-    """Of `polybed resolve`. A size without share has an empty cell, or share 0, and no force."""
+    """The points in rows of `polybed resolve`. A size without share has an empty cell, or share 0, and no force."""
     most = sum(f"D{j}" in lines.columns for j in range(1, 100))
     points = []
     for row in lines.rows:
@@ -125,7 +125,7 @@ def two_sizes(lines):
 
 
 def inferred_shares(path):
-    """Shares by system and y_j."""
+    """The shares by system and y_j."""
     beside = Path(path).parent / SHARES
     if not beside.is_file():
         raise StudyError(FILE, f"{path} has no shares x_j, and {beside} is missing")
@@ -134,7 +134,7 @@ def inferred_shares(path):
 
 
 def row_for_each_size(lines):
-    """Rows of one system, voidage and Reynolds number are one point."""
+    """Joins the rows of one system, voidage and Reynolds number to a point."""
     shares = {} if lines.has("x_j") else inferred_shares(lines.path)
     groups = {}
     for row in lines.rows:
@@ -164,7 +164,7 @@ def points_of_file(path):
 
 
 def read_points(paths):
-    """The points of files, repeated ones once. Of a folder: its tables tab_A_*.csv."""
+    """The points of files, each once. A folder stands for its tables tab_A_*.csv."""
     files = [file for path in paths for file in (sorted(Path(path).glob("tab_A_*.csv")) if Path(path).is_dir() else [Path(path)])]
     if not files:
         raise StudyError(FILE, f"{', '.join(map(str, paths))}: no tables tab_A_*.csv there")

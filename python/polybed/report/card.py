@@ -32,7 +32,7 @@ def time_row(record):
 
 
 def of_case(run):
-    """Of a run that has not yet written a card: what it is of."""
+    """The bed of a run that has not yet written a card."""
     record = run.record
     case = case_of(record)
     fluid, velocity = case.get("fluid", {}).get("name"), velocity_of(case)

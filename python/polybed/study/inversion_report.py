@@ -98,7 +98,7 @@ def head():
 
 
 def line(name, velocity, source, run):
-    """Of a run. source: velocity of the run that it goes on from, m/s, or None"""
+    """The entry of a run. source: velocity of the run that it continues, m/s, or None"""
     begun = "start" if source is None else f"{1e3 * source:.2f}"
     mean, height = (f"{value:{digits}} +-{error:.1g}" for value, digits, error in (
         (run.centre_difference, ".4f", run.error), (1e3 * run.bed_height_m, ".1f", 1e3 * run.bed_height_error_m)))

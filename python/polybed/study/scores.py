@@ -78,7 +78,7 @@ def on_top(centres):
 
 
 def warnings_of(run, means):
-    """What makes the means of a run less than they seem: a window too short. means: by name"""
+    """Warnings of means that rest on too short a window. means: by name"""
     times = {name: mean.correlation for name, mean in means.items() if mean and mean.error is not None}
     slowest = max(times, key=times.get, default=None)
     warnings = []
@@ -95,7 +95,7 @@ def distance_score(found, goal=None):
 
 
 def height_score(height):
-    """The quotient of the bed heights less 1."""
+    """The ratio of the bed heights, less 1."""
     if not (height.tfm and height.dem):
         return Score(goal=GOAL)
     quotient = height.tfm.mean / height.dem.mean
@@ -130,8 +130,8 @@ def compare(tfm, dem):
 
 
 def add_inversion(comparison, scan, path, velocity):
-    """Adds what a scan by both models has found as the score u_inv; a comparison near to an inversion has a wider goal of D1, as a smaller
-    difference of the layers decides there.
+    """Adds the result of a scan by both models as the score u_inv. Near an inversion the goal of D1 is wider, because a small difference
+    decides about the layers there.
 
     scan: inversion.json; path: its file; velocity: at which the runs of the comparison are, m/s, or None
     """
