@@ -319,6 +319,14 @@ class Comparison(Scratch):
         second = strict_json(self.compare(DONE, "--json", "--resume", "--until", "4 ms").stdout)
         self.assertAlmostEqual(second["window"]["end_s"], 0.004, delta=1e-9)
 
+    def test_beds_that_drift_come_with_the_command_that_goes_on(self):
+        told = self.compare(DONE, "--until", "20 ms", "--set", "tfm.rtol=1e-3").stdout
+        self.assertIn("not steady", told)
+        words = shlex.split(re.search(r"(?m)^to go on: polybed (.*)$", told)[1])
+        again = self.ends(DONE, *words, *QUIET, "--json").stdout
+        self.assertAlmostEqual(strict_json(again)["window"]["end_s"], 0.04, delta=1e-9)
+        self.assertNotIn("to go on", self.given().stdout, "given runs are not this command's")
+
 
 if __name__ == "__main__":
     program.main()

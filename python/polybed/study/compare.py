@@ -7,6 +7,7 @@ Exit codes are those of polybed.
 
 import argparse
 import os
+import shlex
 import sys
 from pathlib import Path
 
@@ -22,7 +23,7 @@ with needed(__name__ == "__main__"):
     from polybed.study.measured import measured
     from polybed.study.output_folder import taken
     from polybed.study.record import draw, write_record
-    from polybed.runner import flags, has_checkpoint, run
+    from polybed.runner import flags, has_checkpoint, ranks, run
     from polybed.study.scores import MODELS, add_inversion, compare
 
 
@@ -82,11 +83,19 @@ def read_scan(options, case):
         return (scan, path) if both else None
 
 
+def command_to_go_on(options, time):
+    """The command that continues both runs to twice the time, s."""
+    words = [os.environ.get("POLYBED_TYPED", "polybed"), *(["-n", ranks()] if ranks() > 1 else []), "compare", options.case, "-o", options.output,
+             "--resume", *words_of(options.set), "--until", f"{2 * time:.4g} s"]
+    return " ".join(shlex.quote(str(word)) for word in words)
+
+
 def compare_runs(options, case, directories):
     """Compares two runs and writes comparison.json."""
     records = {model: record_of(directories[model], model) for model in MODELS}
     refuse_difference(directories["tfm"], records["tfm"]["case"], directories["dem"], records["dem"]["case"])
-    found = compare(*(measured(directories[model]) for model in MODELS))
+    runs = [measured(directories[model]) for model in MODELS]
+    found = compare(*runs)
     scan = read_scan(options, case)
     if scan:
         with contents_of(scan[1]):
@@ -96,7 +105,10 @@ def compare_runs(options, case, directories):
     plain = report.plain(found, case, options.output, {model: (directories[model], records[model]) for model in MODELS})
     path = Path(options.output) / "comparison.json"
     text = write_record(path, plain)
-    answer(text if options.json else f"{report.table(plain)}\n{path}")
+    made_here = not (options.tfm or options.dem)
+    drifts = made_here and any(run.drifts for run in runs)
+    more = f"\nto go on: {command_to_go_on(options, records['tfm']['time_s'])}" if drifts else ""
+    answer(text if options.json else f"{report.table(plain)}\n{path}{more}")
     if options.picture:
         draw("polybed.comparison", "write_page", options.output, "page", options.json or options.quiet)
 
