@@ -22,6 +22,7 @@ from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 from typing import Any, ParamSpec, TypeVar
 
+from polybed.ending import NUMBERS
 from polybed.errors import ProgramError
 from polybed.files import FAULTS, read_json
 from polybed.overrides import Overrides, Value, plain, toml, words
@@ -115,15 +116,21 @@ def check(case: Place, overrides: Overrides | None = None, until: Value | None =
 
 
 def made(case: Place, model: str, overrides: Overrides | None, until: Value | None, ranks: int,
-         tell: Callable[[str], None] | None, place: Callable[[str], Path], resume: bool = False) -> Run:
-    """Opens the run that is in a folder, or makes it. place: the folder by the hash of the resolved case; resume: from its checkpoint"""
+         tell: Callable[[str], None] | None, place: Callable[[str], Path], resume: bool = False,
+         keep_failed: bool = False) -> Run:
+    """Opens the run that is in a folder, or makes it. place: the folder by the hash of the resolved case; resume: from its checkpoint;
+    keep_failed: returns a run whose numerics failed"""
     if model not in MODELS:
         raise ValueError(f"there is no model {model!r}; there are {', '.join(MODELS)}")
     text, digest = resolved(case, overrides, until)
     output = place(digest[:DIGITS])
     if not finished(output, model, text):
         begin = "--resume" if resume and has_checkpoint(output) else "--force"
-        call(model, case, *settings(overrides, until), "-o", output, begin, "--no-picture", ranks=ranks, tell=tell)
+        try:
+            call(model, case, *settings(overrides, until), "-o", output, begin, "--no-picture", ranks=ranks, tell=tell)
+        except ProgramError as error:
+            if not keep_failed or error.code != NUMBERS:
+                raise
     return read(output)
 
 
@@ -145,13 +152,14 @@ def run(case: Place, model: str = "tfm", overrides: Overrides | None = None, out
 @names_itself
 def sweep(case: Place, key: str | Mapping[str, Iterable[Value]], values: Iterable[Value] = (), model: str = "tfm",
           overrides: Overrides | None = None, output: Place | None = None, until: Value | None = None, at_once: int = 1,
-          quiet: bool = False, resume: bool = False) -> list[Run]:
+          quiet: bool = False, resume: bool = False, keep_failed: bool = False) -> list[Run]:
     """Runs a case for several values of a key and returns the runs in their order, each in a folder of its own, called by the value
     and the hash of its case. With {key: values} for several keys it runs all combinations, the last key first; see polybed.table.
 
     values: numbers in SI, texts with a unit, or an array along its first axis; until: simulated time, "20 s" or seconds
     at_once: how many run side by side; unless quiet, a bar says how far they are, or, where standard error is no terminal and no notebook, lines
     resume: continues runs that were killed from their checkpoints; finished runs are opened in any case
+    keep_failed: returns also runs whose numerics failed, code 3, of which `record["state"]` says why; otherwise the first one ends the sweep
     """
     axes = {key: values} if isinstance(key, str) else key
     each, done = [dict(zip(axes, point)) for point in itertools.product(*map(list, axes.values()))], itertools.count(1)
@@ -165,7 +173,7 @@ def sweep(case: Place, key: str | Mapping[str, Iterable[Value]], values: Iterabl
         shown = ", ".join(f"{called[key]} {toml(plain(value, key))}" for key, value in point.items()).replace('"', "")[:100]
         name = "".join(c if c.isalnum() or c in ".-" else "_" for c in shown)
         tell = bar.hearer(number, shown) if bar else teller(quiet, shown)
-        found = made(case, model, dict(overrides or {}) | point, until, 1, tell, lambda digest: folder / f"{name}-{digest}", resume)
+        found = made(case, model, dict(overrides or {}) | point, until, 1, tell, lambda digest: folder / f"{name}-{digest}", resume, keep_failed)
         if bar:
             bar.finish(number)
         else:

@@ -75,6 +75,16 @@ class Results(Scratch):
         swept = polybed.sweep(CASE, "tfm.rtol", [1e-3], overrides=keys, output=self.folder / "new", until="2 ms", quiet=True, resume=True)
         self.assertEqual(swept[0].record["state"], "done", "without a checkpoint a run begins")
 
+    def test_a_run_that_fails_ends_a_sweep_unless_it_is_kept(self):
+        grid, fixed = {"tfm.fixed_step": [0.2, 5e-4]}, {"tfm.integrator": "explicit"}
+        with self.assertRaisesRegex(polybed.ProgramError, "cannot go on"):
+            polybed.sweep(CASE, grid, overrides=fixed, output=self.folder / "s", until="0.2 s", quiet=True)
+        failed, done = polybed.sweep(CASE, grid, overrides=fixed, output=self.folder / "s", until="0.2 s", quiet=True, keep_failed=True)
+        self.assertRegex(failed.record["state"], "^failed: .* cannot go on")
+        self.assertEqual(list(polybed.table([failed, done])["run_state"])[1], "done")
+        with self.assertRaises(polybed.ProgramError):  # a wrong case is no run
+            polybed.sweep(CASE, {"tfm.rtol": [-1]}, output=self.folder / "s", quiet=True, keep_failed=True)
+
     def test_a_check_is_what_the_program_says(self):
         found = polybed.check(CASE, {"inlet.superficial_velocity": "20 mm/s"})
         self.assertEqual(found, strict_json(self.ends(program.DONE, "check", CASE, "--set", "inlet.superficial_velocity=20 mm/s", "--json").stdout) |
