@@ -188,8 +188,9 @@ void CaseRun::say(const std::vector<std::string>& lines) const {
 }
 
 std::string CaseRun::command_to_resume(const std::vector<std::string>& more) const {
+  const std::string ranks = ranks_ != nullptr && ranks_->count() > 1 ? fmt::format("-n {} ", ranks_->count()) : "";
   std::string command =
-      fmt::format("{} {} {} -o {} --resume", typed_program(), model_name_,
+      fmt::format("{} {}{} {} -o {} --resume", typed_program(), ranks, model_name_,
                   core::shell_word(options_.case_path.string()), core::shell_word(directory_.string()));
   for (const auto& settings : {options_.overrides, more})
     for (const std::string& setting : settings) command += " --set " + core::shell_word(setting);

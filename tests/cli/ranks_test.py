@@ -2,6 +2,7 @@
 """The program on ranks, without a network, and its launcher on another user's tree. Usage: ranks_test.py PROGRAM"""
 import os
 import pathlib
+import shlex
 import shutil
 import signal
 import subprocess
@@ -35,6 +36,16 @@ class Ranks(Scratch):
         wrong = bare("-n", 2, "tfm", case, "--set", "run.until=-1", "-o", self.folder / "wrong")
         self.assertEqual(wrong.returncode, WRONG_CASE, wrong.stderr)
         self.assertEqual(wrong.stderr.count("is out of range"), 1, wrong.stderr)  # by the first rank alone
+
+    def test_the_command_that_goes_on_has_the_ranks(self):
+        case = self.write("case.toml", small_bed("20 ms"))
+        done = bare("-n", 2, "tfm", case, "--set", "output.history_every=1e-4", "--no-picture", "-o", self.folder / "run")
+        [line] = [line for line in done.stderr.splitlines() if line.startswith("to go on")]
+        self.assertRegex(line, rf"^to go on +{program.PROGRAM} -n 2 tfm {case} ")
+        again = bare(*shlex.split(line)[4:], "--quiet", "--no-picture")
+        self.assertEqual(again.returncode, DONE, again.stderr)
+        record = strict_json((self.folder / "run/run.json").read_text())
+        self.assertEqual((record["ranks"], record["time_s"]), (2, 0.04))
 
     def interrupted(self, number, meanwhile=lambda mpirun: None):
         """Code, record and messages of a run on two ranks that gets a signal once it has a checkpoint."""
