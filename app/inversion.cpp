@@ -266,6 +266,17 @@ void print_composition(const core::Scene& scene, const closures::DragLaw& law, c
                                          {"composition", rows}}));
 }
 
+/// Why two species never change places, if their sizes and densities tell.
+std::string reason_of(const core::Scene& scene) {
+  const bool first = scene.species[0].diameter > scene.species[1].diameter;
+  const core::Species &larger = scene.species[first ? 0 : 1], &smaller = scene.species[first ? 1 : 0];
+  if (larger.density < smaller.density) return "";
+  return fmt::format(
+      "\nlayers change places only if the larger particles are the lighter ones; {} is larger and {}, so {} is on top "
+      "at every velocity",
+      larger.name, larger.density > smaller.density ? "denser" : "as dense", smaller.name);
+}
+
 void run_without_a_run(const InversionOptions& options) {
   const core::Scene scene = read_chosen_case(options.case_path, options.overrides, {});
   if (options.method == "all") {
@@ -283,7 +294,9 @@ void run_without_a_run(const InversionOptions& options) {
       points.empty() ? std::vector<Band>{} : bands(scene, law, options.method, points.back().voidage);
   const InversionBeside beside = inversion_beside(scene, law);
   if (options.json) return print_json(scene, options.method, points, band, beside);
-  if (points.empty()) core::print("no inversion point between voidage 0.2 and 1 by {} with {}\n", options.method, name);
+  if (points.empty())
+    core::print("no inversion point between voidage 0.2 and 1 by {} with {}{}\n", options.method, name,
+                reason_of(scene));
   for (const InversionPoint& p : points)
     core::print("inversion at {:.2f} mm/s, voidage {:.4f} ({}, {})\n", 1e3 * p.velocity, p.voidage, options.method,
                 name);

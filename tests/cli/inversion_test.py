@@ -204,5 +204,13 @@ class WithoutARun(Scratch):
                       strict_json((self.folder / "scan" / found["models"]["tfm"]["runs"][0]["directory"] / "run.json").read_text())["case"])
 
 
+class WithoutPoint(Scratch):
+    def test_sizes_and_densities_that_never_change_places_are_told(self):
+        for density, word in (("2500", "as dense"), ("2600", "denser")):
+            told = self.ends(DONE, "inversion", CASE, "--set", "species.fine.density=2500", "--set", f"species.coarse.density={density}").stdout
+            self.assertRegex(told, rf"^no inversion point .*\n.*coarse is larger and {word}, so fine is on top at every velocity\n$")
+        self.assertNotIn("no inversion point", self.ends(DONE, "inversion", CASE).stdout)
+
+
 if __name__ == "__main__":
     program.main()
