@@ -17,25 +17,34 @@ namespace polybed::multiscale {
 
 namespace {
 
-/// A band by its factor either way, the middle moved by what runs took over what was expected.
-TimeBand band_of(double seconds, double middle, double factor) {
-  return {seconds * middle / factor, seconds * middle, seconds * middle * factor};
+/// What runs took over what was expected of them: its middle, and the factor either way that holds nine of ten.
+struct Spread {
+  double middle, factor;
+};
+
+TimeBand band_of(double seconds, const Spread& spread) {
+  const double expected = seconds * spread.middle;
+  return {expected / spread.factor, expected, expected * spread.factor};
 }
 
-/// Of the two-fluid model, taken over expected, from the runs of docs/record/cost.md: 0.4 to 2.6 of explicit ones, 0.8
-/// to 4.4 of implicit ones, which start with many Newton iterations, 0.3 to 1.0 of split ones, whose steps grow as the
-/// bed comes to rest. A probe knows what a step costs and how long the first ones are, not those of the expanded bed.
-constexpr double explicit_middle = 1, implicit_middle = 2.3, split_middle = 0.55, tfm_factor = 2.2, probe_factor = 1.6;
-double tfm_middle(core::TfmIntegrator integrator) {
+/// Of the two-fluid model, from the runs of docs/record/cost.md: 0.4 to 2.6 of explicit ones, 0.2 to 4.4 of implicit
+/// ones, which start with many Newton iterations and take longer steps until bubbles form, 0.3 to 1.4 of split ones,
+/// whose steps grow as the bed comes to rest. A probe knows what a step costs and how long the first ones are, not
+/// those of the expanded bed.
+Spread tfm_spread(core::TfmIntegrator integrator) {
   using enum core::TfmIntegrator;
-  return integrator == implicit_steps ? implicit_middle : integrator == split_steps ? split_middle : explicit_middle;
+  if (integrator == implicit_steps) return {1.2, 4};
+  return {integrator == split_steps ? 0.55 : 1, 2.6};
 }
+constexpr double probe_factor = 1.8;
 /// Of the particles: a dilute bed is up to four times as fast as the dense ones that were measured.
-constexpr double dem_middle = 1, dem_factor = 2;
+constexpr Spread dem_spread{1, 2.5};
 /// Constants that were not measured on this machine.
 constexpr double shipped_factor = 3;
 
-double factor_of(double own, const Machine& machine) { return machine.measured ? own : std::max(own, shipped_factor); }
+Spread with_machine(Spread spread, const Machine& machine) {
+  return {spread.middle, machine.measured ? spread.factor : std::max(spread.factor, shipped_factor)};
+}
 
 const char* basis_of(const Machine& machine) {
   return machine.measured ? "measurements of this machine"
@@ -125,7 +134,7 @@ std::pair<double, double> probed(Model& model, double until, double seconds) {
 /// A band from what a probe took: what it covered is known, the rest goes on at the rate expected of it.
 TimeBand probed_band(double covered, double until, double spent, double rest) {
   const double left = 1 - covered / until, factor = 1 + (probe_factor - 1) * left;
-  return band_of(spent + rest * left, 1, factor);
+  return band_of(spent + rest * left, {1, factor});
 }
 
 }  // namespace
@@ -140,8 +149,8 @@ TimeBand tfm_time(const core::Scene& scene, const tfm::Model& model, const Machi
   const double cells = double(scene.column.cells[0]) * scene.column.cells[1] * scene.column.cells[2];
   const double step = tfm_step_seconds(machine, model.integrator_kind() == core::TfmIntegrator::implicit_steps, cells,
                                        scene.species.size(), scene.column.dimensions);
-  return with_start(band_of(expected_of(scene, model, step).time->computing(), tfm_middle(model.integrator_kind()),
-                            factor_of(tfm_factor, machine)),
+  return with_start(band_of(expected_of(scene, model, step).time->computing(),
+                            with_machine(tfm_spread(model.integrator_kind()), machine)),
                     scene, machine);
 }
 
@@ -150,13 +159,12 @@ TimeBand tfm_time(const core::Scene& scene, const tfm::Model& model, const Machi
 }
 
 TimeBand tfm_time(const core::Scene& scene, const Requirements& need, const Machine& machine) {
-  return with_start(band_of(need.time.value().computing(), tfm_middle(need.integrator), tfm_factor), scene, machine);
+  return with_start(band_of(need.time.value().computing(), tfm_spread(need.integrator)), scene, machine);
 }
 
 TimeBand dem_time(const core::Scene& scene, const Machine& machine) {
   const ParticleRequirements need = particle_requirements_of(scene, machine.particles);
-  return with_start(band_of(need.expected - need.before, dem_middle, factor_of(dem_factor, machine)), scene, machine,
-                    need);
+  return with_start(band_of(need.expected - need.before, with_machine(dem_spread, machine)), scene, machine, need);
 }
 
 CostEstimate estimate_tfm(const core::Scene& scene, const Machine& machine, double probe, int ranks) {

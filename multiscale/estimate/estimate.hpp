@@ -17,7 +17,7 @@ namespace polybed::multiscale {
 
 struct Requirements;
 
-/// CPU seconds that hold the truth in 80 of 100 runs, and their middle.
+/// CPU seconds that hold the truth in 90 of 100 runs, and their middle.
 struct TimeBand {
   double least = 0, expected = 0, most = 0;
   double start = 0;  ///< of expected: before the first step, known within a factor of 2

@@ -27,7 +27,7 @@ void write_estimate(core::Json& json, const CostEstimate& e) {
   json.update({{"model", e.model},
                {"ranks", e.ranks},
                {"cpu_s", {{"least", e.time.least}, {"expected", e.time.expected}, {"most", e.time.most}}},
-               {"band", 0.8},
+               {"band", 0.9},
                {"wall_s", e.wall},
                {"basis", e.basis},
                {"steps", e.steps},
@@ -40,7 +40,7 @@ void write_estimate(core::Json& json, const CostEstimate& e) {
 
 void print_estimate(const core::Scene& scene, const CostEstimate& e) {
   constexpr std::string_view continuum = "tfm";
-  core::print("{:.4g} s by the {} on {} rank{}: about {} of computing, with 80 % confidence {} to {}\n",
+  core::print("{:.4g} s by the {} on {} rank{}: about {} of computing, with 90 % confidence {} to {}\n",
               scene.run.until, e.model == continuum ? "two-fluid model" : "particle model", e.ranks,
               e.ranks > 1 ? "s" : "", short_time(e.time.expected), short_time(e.time.least), short_time(e.time.most));
   core::print("  based on  {}\n", e.basis);
