@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <numeric>
 
@@ -11,6 +12,7 @@
 #include "closures/mixture.hpp"
 #include "closures/sphere.hpp"
 #include "closures/terminal_velocity.hpp"
+#include "core/case/layers.hpp"
 #include "relevance/advised_drag.hpp"
 #include "relevance/drag_law.hpp"
 #include "relevance/fluid_properties.hpp"
@@ -209,39 +211,8 @@ std::optional<ExpectedDischarge> expected_discharge(const core::Scene& scene, do
                            mass, width / mean, !scene.column.is_tapered()};
 }
 
-}  // namespace
-
-double least_velocity(const core::Column& column, double velocity) {
-  double widest = column.cross_section();
-  for (const auto& [height, diameter] : column.profile)
-    widest = std::max(widest, std::numbers::pi / 4 * diameter * diameter);
-  return velocity * column.cross_section() / widest;
-}
-
-Fluidisation carried(const core::Scene& scene) {
-  return scene.column.outlet == core::Outlet::screen ? Fluidisation::carried_up : Fluidisation::carried_out;
-}
-
-bool is_carried(Fluidisation state) { return state == Fluidisation::carried_up || state == Fluidisation::carried_out; }
-
-std::string name_of(Fluidisation state) {
-  const char* names[] = {"", "packed", "fluidised", "carried_up", "carried_out"};
-  return names[std::size_t(state)];
-}
-
-std::optional<double> BedOfCase::velocity_ratio() const {
-  const std::optional<double>& least = own.minimum_fluidisation;
-  return velocity && *velocity >= 0 && least && *least > 0 ? std::optional(*velocity / *least) : std::nullopt;
-}
-
-std::string geldart_class(double diameter, double excess) {
-  const double d = 1e6 * diameter, density = 1e-3 * excess;
-  if (d < 30) return "C";
-  if (density * d < 225) return "A";
-  return density * d * d > 1e6 ? "D" : "B";
-}
-
-BedOfCase bed_of_case(const core::Scene& scene) {
+/// All but the velocities of an expansion.
+BedOfCase bed_without_expansion(const core::Scene& scene) {
   BedOfCase bed;
   const double gravity = scene.column.gravity * std::max(0.0, -scene.column.down[1]);
   if (!scene.fluid.present()) {
@@ -280,6 +251,93 @@ BedOfCase bed_of_case(const core::Scene& scene) {
     bed.validity = validity_of(scene, gas);
   }
   expect(scene, balance, share, fluid, gravity, bed);
+  return bed;
+}
+
+/// The velocity at which a law of `bed.others` expects the height; nothing if the bed leaves the column before.
+std::optional<double> velocity_for(core::Scene scene, const BedOfCase& bed, std::size_t law, double height) {
+  constexpr double greatest = 100, step = 1.05;  // times u_mf, which lets no bed expand so far
+  const auto reaches = [&](double velocity) -> std::optional<bool> {
+    scene.inlet.superficial_velocity = {{0.0, velocity}};
+    const std::optional<double> found = bed_without_expansion(scene).others[law].height;
+    return found ? std::optional(*found >= height) : std::nullopt;
+  };
+  const double start = *bed.others[law].minimum_fluidisation;
+  for (double high = step * start; high < greatest * start; high *= step) {
+    const std::optional<bool> reached = reaches(high);
+    if (!reached) return {};
+    if (!*reached) continue;
+    double low = high / step;
+    for (int n = 0; n < 12; ++n) {  // to 1e-5 of the velocity
+      const double middle = (low + high) / 2;
+      (reaches(middle).value_or(true) ? high : low) = middle;
+    }
+    return high;
+  }
+  return {};
+}
+
+void add_expansion(const core::Scene& scene, BedOfCase& bed) {
+  const bool gas = !bed.species.empty() && !bed.species.front().geldart.empty();
+  if (gas || !bed.own.height || scene.column.is_tapered() || !scene.jets.empty()) return;
+  const double settled = settled_height(scene);
+  for (const double share : {0.1, 0.3, 0.5}) {
+    ExpansionAt found{share, std::numeric_limits<double>::max(), 0};
+    for (std::size_t law = 0; law < bed.others.size(); ++law) {
+      const double height = (1 + share) * settled;
+      const std::optional<double> velocity = height < scene.column.size[1] && bed.others[law].minimum_fluidisation
+                                                 ? velocity_for(scene, bed, law, height)
+                                                 : std::nullopt;
+      if (!velocity) return;
+      found.least = std::min(found.least, *velocity);
+      found.most = std::max(found.most, *velocity);
+    }
+    if (found.most > 0) bed.expansion.push_back(found);
+  }
+}
+
+}  // namespace
+
+double least_velocity(const core::Column& column, double velocity) {
+  double widest = column.cross_section();
+  for (const auto& [height, diameter] : column.profile)
+    widest = std::max(widest, std::numbers::pi / 4 * diameter * diameter);
+  return velocity * column.cross_section() / widest;
+}
+
+Fluidisation carried(const core::Scene& scene) {
+  return scene.column.outlet == core::Outlet::screen ? Fluidisation::carried_up : Fluidisation::carried_out;
+}
+
+bool is_carried(Fluidisation state) { return state == Fluidisation::carried_up || state == Fluidisation::carried_out; }
+
+std::string name_of(Fluidisation state) {
+  const char* names[] = {"", "packed", "fluidised", "carried_up", "carried_out"};
+  return names[std::size_t(state)];
+}
+
+std::optional<double> BedOfCase::velocity_ratio() const {
+  const std::optional<double>& least = own.minimum_fluidisation;
+  return velocity && *velocity >= 0 && least && *least > 0 ? std::optional(*velocity / *least) : std::nullopt;
+}
+
+std::string geldart_class(double diameter, double excess) {
+  const double d = 1e6 * diameter, density = 1e-3 * excess;
+  if (d < 30) return "C";
+  if (density * d < 225) return "A";
+  return density * d * d > 1e6 ? "D" : "B";
+}
+
+double settled_height(const core::Scene& scene) {
+  if (scene.layers.empty()) return scene.bed.static_height;
+  std::vector<double> height;
+  for (const core::Layer& layer : scene.layers) height.push_back(layer.height);
+  return core::top_of(core::stacked(core::start_parts(scene), height));
+}
+
+BedOfCase bed_of_case(const core::Scene& scene) {
+  BedOfCase bed = bed_without_expansion(scene);
+  add_expansion(scene, bed);
   return bed;
 }
 

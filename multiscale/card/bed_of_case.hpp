@@ -46,6 +46,12 @@ struct ByLaw {
   std::optional<double> height;                ///< expected of a uniform bed, m
 };
 
+/// The velocities at which a bed has expanded so far, by the laws that were made from such beds.
+struct ExpansionAt {
+  double share;        ///< of the settled height that the bed is higher
+  double least, most;  ///< superficial, m/s
+};
+
 struct BedOfCase {
   std::vector<SpeciesInFluid> species;
   ByLaw own;                                   ///< by the law of the case
@@ -53,6 +59,7 @@ struct BedOfCase {
   std::optional<double> velocity;              ///< superficial, mean over the bottom at the end of the run, m/s
   Fluidisation state{};                        ///< expected
   std::vector<std::string> leaving;            ///< species that the fluid lifts out of the bed of the others
+  std::vector<ExpansionAt> expansion;          ///< of a bed in a liquid, as far as the column is high enough
   std::optional<double> rising_time;           ///< s, in which the top of a packed bed gets there in a liquid at least
   std::optional<ExpectedDischarge> discharge;  ///< of dry particles over dem.opening
   std::string validity;                        ///< how far the models agree with measured beds of this kind
@@ -64,6 +71,9 @@ struct BedOfCase {
 /// Schiller and Naumann. The height is that of the species which stay. Nothing is run. Throws core::CaseError for a
 /// fluid that is not known.
 [[nodiscard]] BedOfCase bed_of_case(const core::Scene& scene);
+
+/// Height of the settled bed, m; of layers the top of the highest, each at its own solids fraction.
+[[nodiscard]] double settled_height(const core::Scene& scene);
 
 /// Geldart's class (Powder Technology 7 (1973) 285) by his lines, rho_s - rho_f in g/cm3 and d in um: D above
 /// (rho_s - rho_f) d^2 = 1e6, A below (rho_s - rho_f) d = 225, B between. C is not a formula there: below 30 um, where

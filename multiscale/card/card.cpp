@@ -253,7 +253,9 @@ std::string computing_text(const TimeBand& time) {
 }
 
 std::string left_out_text(const LeftOut& left_out) {
-  std::string text = "forces of " + relevance::percent(left_out.sum) + " of the weight";
+  const std::string rounded = relevance::percent(left_out.sum);
+  const bool alike = rounded == relevance::percent(left_out.promise) && matters(left_out);
+  std::string text = "forces of " + (alike ? fmt::format("{:.3g} %", 100 * left_out.sum) : rounded) + " of the weight";
   if (!matters(left_out))
     return text + ", within the " + relevance::percent(left_out.promise) + " allowed: does not matter";
   text += ", above the " + relevance::percent(left_out.promise) + " allowed: matters";
@@ -293,10 +295,15 @@ void write_expected(core::Json& json, const core::Scene& scene, const BedOfCase&
   for (const ByLaw& one : bed.others)
     laws[one.law] = {{"u_mf_m_s", core::or_null(one.minimum_fluidisation)},
                      {"bed_height_m", core::or_null(one.height)}};
+  core::Json expansion = core::Json::array();
+  for (const ExpansionAt& one : bed.expansion)
+    expansion.push_back({{"share", one.share}, {"least_m_s", one.least}, {"most_m_s", one.most}});
   json["expected"].update({
       {"state", core::text_or_null(name_of(bed.state))},
       {"law", core::text_or_null(bed.own.law)},
       {"bed_height_m", core::or_null(bed.own.height)},
+      {"settled_height_m", settled_height(scene)},
+      {"expansion", expansion},
       {"by_laws_of_beds", laws},
       {"leaving", bed.leaving},
       {"rising_time_s", core::or_null(bed.rising_time)},
@@ -313,7 +320,7 @@ std::vector<std::string> expectation_lines(const core::Scene& scene, const BedOf
     if (bed.own.height) {
       text += *bed.own.height < top ? fmt::format(", about {:.0f} mm high by {}", 1e3 * *bed.own.height, bed.own.law)
                                     : ", up to the top of the column by " + bed.own.law;
-      text += fmt::format(" (settled {:.0f} mm, column {:.0f} mm)", 1e3 * scene.bed.static_height, 1e3 * top);
+      text += fmt::format(" (settled {:.0f} mm, column {:.0f} mm)", 1e3 * settled_height(scene), 1e3 * top);
     }
     if (!bed.leaving.empty())
       text += fmt::format("; lifted {}: {}", scene.column.outlet == core::Outlet::open ? "out" : "to the top",
@@ -323,6 +330,13 @@ std::vector<std::string> expectation_lines(const core::Scene& scene, const BedOf
                                    ? by_others(bed, &ByLaw::height, "m", top)
                                    : std::string();
     if (!others.empty()) lines.push_back(card_line("", others));
+  }
+  if (!bed.expansion.empty()) {
+    std::string text;
+    for (const ExpansionAt& one : bed.expansion)
+      text += fmt::format("{}{:.0f} % at {}", text.empty() ? "" : ", ", 100 * one.share,
+                          range_text(one.least, one.most, "m/s"));
+    lines.push_back(card_line("expands by", text + " by laws of such beds"));
   }
   if (bed.discharge) add_discharge(*bed.discharge, lines);
   const std::size_t before = lines.size();

@@ -23,6 +23,32 @@ class Needs(Scratch):
                      r"20 s takes about .* of computing, .* to .*: [\d.e+]+ steps of [\d.e-]+ s"):
             self.assertRegex(text, line)
 
+    def test_the_velocities_of_an_expansion_give_these_heights(self):
+        """Between the velocities of two laws, the one expects a bed higher than said, the other a lower one."""
+        found = answer()["expected"]
+        self.assertEqual([one["share"] for one in found["expansion"]], [0.1, 0.3, 0.5])
+        for one in found["expansion"]:
+            height = (1 + one["share"]) * found["settled_height_m"]
+            for velocity, bound in ((one["least_m_s"], max), (one["most_m_s"], min)):
+                by_law = answer(*setting(inlet__superficial_velocity=velocity))["expected"]["by_laws_of_beds"]
+                self.assertAlmostEqual(bound(law["bed_height_m"] for law in by_law.values()), height, delta=1e-4 * height)
+        self.assertRegex(self.ends(DONE, "check", CASE).stdout, r"(?m)^expands by    10 % at [\d.]+ to [\d.]+ mm/s, 30 % at .*, 50 % at .* mm/s by laws of such beds$")
+
+    def test_layers_settle_to_the_sum_of_their_heights(self):
+        """Of 20 mm at 0.62 and 40 mm at 0.31, which at 0.62 were 40 mm together."""
+        text = "".join(line for line in CASE.read_text().splitlines(keepends=True)
+                       if not line.startswith(("volume_share", "static_height", "start ")))
+        layers = ["[[layer]]\nspecies = 'fine'\nheight = '20 mm'\n", "[[layer]]\nspecies = 'coarse'\nheight = '40 mm'\nsolids_fraction = 0.31\n"]
+        case = self.write("layers.toml", text + "".join(layers))
+        self.assertAlmostEqual(strict_json(self.ends(DONE, "check", case, "--json").stdout)["expected"]["settled_height_m"], 0.06)
+        self.assertIn("(settled 60 mm, column", self.ends(DONE, "check", case).stdout)
+
+    def test_a_bubbling_bed_of_rings_is_noted(self):
+        case = program.ROOT / "cases/templates/gas-bed/case.toml"
+        round_column = setting(column__shape='"axisymmetric"', column__size='["75 mm", "500 mm"]', column__cells="[7, 50]")
+        self.assertIn("a bubble in the gas is a ring about the axis", self.ends(DONE, "check", case, *round_column).stdout)
+        self.assertNotIn("ring about", self.ends(DONE, "check", case).stdout)
+
     def test_scales_follow_the_case(self):
         plain, fine, viscous = answer(), answer(*setting(column__cells="[36,396]")), answer(
             *setting(effects__fluid_stress="newtonian"))
