@@ -105,7 +105,7 @@ std::vector<Inflow> inflows_of(const core::Scene& scene) {
        std::string("it will be carried to the top") + (scene.column.outlet == core::Outlet::open ? ", and out" : "")}};
   for (std::size_t n = 0; n < scene.jets.size(); ++n)
     inflows.push_back({fmt::format("jet {}", n + 1), greatest(scene.jets[n].superficial_velocity),
-                       "it will be carried up as far as the jet keeps together"});
+                       "it will be carried along as far as the jet keeps together"});
   return inflows;
 }
 

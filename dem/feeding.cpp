@@ -34,7 +34,7 @@ std::pair<Vector, Vector> centres(const core::Feed& feed, const Box& box, double
     low[k] = (whole ? 0 : feed.from[n]) + radius;
     high[k] = std::max(low[k], (whole ? box.size[k] : feed.to[n]) - radius);
   }
-  low[1] = high[1] = feed.at == core::ColumnEnd::top ? box.size[1] - hair * radius : hair * radius;
+  low[1] = high[1] = feed.at == core::ColumnFace::top ? box.size[1] - hair * radius : hair * radius;
   return {low, high};
 }
 
@@ -56,8 +56,8 @@ Feeding::Feeding(const core::Scene& scene, const Materials& materials, const Box
     const double radius = found->radius;
     const auto [low, high] = centres(feed, box, radius);
     // The list is made when the fastest particles have moved by half of the skin: no more often because of feeds.
-    feeds_.push_back({std::int32_t(found - materials.species().begin()), feed.at == core::ColumnEnd::top, feed.velocity,
-                      0.5 * skin / feed.velocity, fluid::Ramp(feed.superficial_velocity),
+    feeds_.push_back({std::int32_t(found - materials.species().begin()), feed.at == core::ColumnFace::top,
+                      feed.velocity, 0.5 * skin / feed.velocity, fluid::Ramp(feed.superficial_velocity),
                       area_of(feed, scene.column) / closures::sphere_volume(radius), low, high});
   }
 }

@@ -1,5 +1,6 @@
 #include "dem/rules.hpp"
 
+#include "core/case/size_classes.hpp"
 #include "dem/effects/maker.hpp"
 #include "relevance/effect_rules.hpp"
 
@@ -41,6 +42,19 @@ const std::vector<core::Rule>& model_rules() {
        "column.profile and [[feed]]: polybed tfm can run it, polybed dem cannot: particles would enter beside a narrow "
        "end",
        [](const core::Scene& scene) { return core::broken_if(scene.column.is_tapered() && !scene.feeds.empty()); }},
+      {{"feed.at"},
+       "feed.at = \"{}\": polybed tfm can run it, polybed dem cannot: particles enter through the bottom or the top",
+       [](const core::Scene& scene) {
+         core::Broken broken;
+         for (std::size_t n = 0; n < scene.feeds.size(); ++n)
+           if (const core::ColumnFace at = scene.feeds[n].at; is_side(at))
+             broken.add({std::string(core::name_of(at))}, core::entry_of(scene, scene.feeds, n));
+         return broken;
+       }},
+      {{"discharge.at"},
+       "[[discharge]]: polybed tfm can run it, polybed dem cannot: particles leave through the top, by column.outlet = "
+       "\"open\", or without a fluid through dem.opening",
+       [](const core::Scene& scene) { return core::broken_if(!scene.discharges.empty()); }},
       {{"column.outlet", "fluid.name", "fluid.equation_of_state"},
        "column.outlet = \"open\" in a compressible fluid: polybed tfm can run it, polybed dem cannot: the mass of the "
        "fluid that takes the place of a particle as it leaves would be missing; use fluid.equation_of_state = "

@@ -96,7 +96,7 @@ double fall_height(const core::Scene& scene, const Materials& materials, const B
   else
     top = start_height(scene, materials, box);
   const bool from_top = std::any_of(scene.feeds.begin(), scene.feeds.end(),
-                                    [](const core::Feed& feed) { return feed.at == core::ColumnEnd::top; });
+                                    [](const core::Feed& feed) { return feed.at == core::ColumnFace::top; });
   if (from_top) top = std::max(top, box.size[1]);
   // What leaves falls on by a diameter before it is taken out.
   return top + (box.opening ? materials.greatest_diameter() : 0);

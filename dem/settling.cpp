@@ -53,6 +53,7 @@ core::Scene falling(core::Scene scene, double step) {
   scene.inlet.superficial_velocity.clear();
   scene.jets.clear();
   scene.feeds.clear();
+  scene.discharges.clear();
   core::set_restitution(scene, dull);
   for (core::ContactPair& pair : scene.contact_pairs) pair.restitution.reset();
   return scene;

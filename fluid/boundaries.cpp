@@ -10,6 +10,18 @@ using core::Field;
 using core::for_each_layer_row;
 using core::Index;
 
+std::vector<core::ColumnFace> crossed_sides(const core::Scene& scene) {
+  std::vector<core::ColumnFace> sides;
+  const auto see = [&](const auto& parts) {
+    for (const auto& part : parts)
+      if (is_side(part.at) && std::find(sides.begin(), sides.end(), part.at) == sides.end()) sides.push_back(part.at);
+  };
+  see(scene.jets);
+  see(scene.feeds);
+  see(scene.discharges);
+  return sides;
+}
+
 /// Ghost layers as sign times the mirror image: about the boundary face for entries on cells (or faces of
 /// another axis), about the boundary face itself for entries on faces of this axis.
 void Boundaries::fill_beyond(Field& field, int axis, double sign_low, double sign_high, bool on_faces) const {

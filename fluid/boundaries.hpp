@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <limits>
 #include <span>
+#include <utility>
+#include <vector>
 
 #include "core/case/scene.hpp"
 #include "core/numerics/halo.hpp"
@@ -17,6 +19,9 @@ enum class Ends { walls, outlet, given };
   if (scene.column.closed) return Ends::walls;
   return scene.inlet.at == core::ColumnEnd::top ? Ends::given : Ends::outlet;
 }
+
+/// The sides that fluid or solids cross in parts.
+[[nodiscard]] std::vector<core::ColumnFace> crossed_sides(const core::Scene& scene);
 
 /// What a velocity does along a wall.
 enum class WallSlip { no_slip, free_slip };
@@ -34,13 +39,14 @@ class Boundaries {
  public:
   Boundaries() = default;
   /// open: the outlet lets solids out.
-  Boundaries(const core::Grid& grid, Ends ends, bool open = false)
-      : grid_(grid), halo_(grid), ends_(ends), open_(open && ends == Ends::outlet) {}
+  Boundaries(const core::Grid& grid, Ends ends, bool open = false, std::vector<core::ColumnFace> crossed = {})
+      : grid_(grid), halo_(grid), ends_(ends), open_(open && ends == Ends::outlet), crossed_(std::move(crossed)) {}
 
   [[nodiscard]] bool closed() const { return ends_ == Ends::walls; }
   /// Whether the pressure is given at the top, through which the fluid flows as it likes.
   [[nodiscard]] bool has_outlet() const { return ends_ == Ends::outlet; }
   [[nodiscard]] bool open() const { return open_; }
+  [[nodiscard]] const std::vector<core::ColumnFace>& crossed() const { return crossed_; }
 
   /// Whether this block reaches a wall for the solids at the low (0) or high (1) end of an axis: all ends of the column
   /// are but the top of an open one, the distributor too.
@@ -107,6 +113,7 @@ class Boundaries {
   mutable std::vector<Ghosts> wanted_;
   Ends ends_ = Ends::outlet;
   bool open_ = false;
+  std::vector<core::ColumnFace> crossed_;
   int solids_rows_ = std::numeric_limits<int>::max();  ///< of this block, counted from its first
 };
 
@@ -120,6 +127,13 @@ void for_each_boundary_row(const core::Grid& grid, int axis, int side, Body&& bo
   box.lo[a] = side == 0 ? 0 : grid.cells[a];
   box.hi[a] = box.lo[a] + 1;
   core::for_each_row(grid, box, body);
+}
+
+/// Ghosts of the velocity along the axis of a side, beyond one of its faces: what crosses it goes on as it is.
+inline void extend_beyond(const core::Grid& grid, core::ColumnFace at, core::Index face, core::Field& velocity) {
+  const core::Index s = grid.stride(axis_of(at));
+  for (int layer = 1; layer <= core::Grid::halo - side_of(at); ++layer)
+    velocity[std::size_t(side_of(at) == 0 ? face - layer * s : face + layer * s)] = velocity[std::size_t(face)];
 }
 
 }  // namespace polybed::fluid

@@ -32,7 +32,7 @@ void clear(core::FaceField& faces) {
 
 Flow::Flow(const core::Scene& scene, const core::Grid& grid, double tolerance)
     : grid_(grid),
-      boundaries_(grid, ends_of(scene)),
+      boundaries_(grid, ends_of(scene), false, crossed_sides(scene)),
       inlet_(grid, scene),
       constants_(relevance::fluid_constants(scene.fluid)),
       gravity_(scene.column.gravity),
@@ -123,16 +123,16 @@ void Flow::set_density() {
 /// What passed the ends in a step, at the density that its equations had; then the density is that of the new pressure.
 /// No particle crosses an end of a column with a compressible fluid: J is the fluid's own flux there.
 void Flow::finish_compression(double dt, FlowStep& step) {
-  const MassFlow flow = mass_flow(grid_, boundaries_, fluid_, fluid_.flux[1]);
+  const MassFlow flow = mass_flow(grid_, boundaries_, fluid_, fluid_.flux);
   step.mass_in = flow.in * dt;
   step.mass_out = flow.out * dt;
   set_density();
 }
 
-/// What flows through an end at which that is given, over the voidage of the cells next to it.
+/// What flows through an end or a side where that is given, over the voidage of the cells next to it.
 void Flow::set_inlet(double t) {
   if (boundaries_.closed()) return;
-  inlet_.set_velocity(t, fluid_.flux[1]);
+  inlet_.set_velocity(t, fluid_.flux);
   for (const int side : {0, 1}) {
     if (side == 1 && boundaries_.has_outlet()) continue;
     const auto inward = std::size_t(side) * std::size_t(grid_.stride(1));
@@ -141,12 +141,16 @@ void Flow::set_inlet(double t) {
         fluid_.velocity[1][c] = fluid_.flux[1][c] / fluid_.voidage[c - inward];
     });
   }
+  inlet_.for_each_side_face([&](std::size_t a, Index face, Index inside) {
+    fluid_.velocity[a][std::size_t(face)] = fluid_.flux[a][std::size_t(face)] / fluid_.voidage[std::size_t(inside)];
+  });
   core::hold_closed(grid_, fluid_.velocity);
 }
 
 /// a, and dt (U.grad)U.
 void Flow::find_acceleration(double dt, const ParticlePhase& particles) {
   boundaries_.fill_velocity(fluid_.velocity, WallSlip::no_slip);
+  inlet_.extend(fluid_.velocity);
   find_own_flux(particles);
   const auto on_face = [&](std::size_t a, Index c, Index) { return particles.voidage_on[a][std::size_t(c)]; };
   convection(grid_, boundaries_, limited_, true, own_flux_, fluid_.velocity, on_face, acceleration_);

@@ -12,21 +12,31 @@ namespace polybed::fluid {
 using core::Index;
 
 MassFlow mass_flow(const core::Grid& grid, const Boundaries& boundaries, const FluidState& fluid,
-                   const core::Field& own_flux) {
+                   const core::FaceField& own_flux) {
   if (boundaries.closed()) return {};
   const LocalDensity density{fluid.compression.density.data()};
-  const Index s = grid.stride(1);
-  const double area = grid.spacing[0] * grid.spacing[2];
-  const auto through = [&](int side) {
+  const auto through = [&](core::ColumnFace at, auto&& part) {
+    const int axis = axis_of(at);
+    const auto a = std::size_t(axis);
+    const Index s = grid.stride(axis);
+    const double area = a == 1 ? grid.spacing[0] * grid.spacing[2] : grid.cell_volume() / grid.spacing[a];
     double sum = 0;
     core::with_metric(grid, [&](const auto& metric) {
-      for_each_boundary_row(grid, 1, side, [&](Index begin, Index end) {
-        for (Index c = begin; c < end; ++c) sum += metric.open(1, c) * density.on_face(c, s) * own_flux[std::size_t(c)];
+      for_each_boundary_row(grid, axis, side_of(at), [&](Index begin, Index end) {
+        for (Index c = begin; c < end; ++c)
+          sum += metric.open(a, c) * density.on_face(c, s) * part(own_flux[a][std::size_t(c)]);
       });
     });
     return core::sum_of_ranks(grid, sum) * area;
   };
-  return {through(0), through(1)};
+  const auto all = [](double q) { return q; };
+  MassFlow flow{through(core::ColumnFace::bottom, all), through(core::ColumnFace::top, all)};
+  for (const core::ColumnFace at : boundaries.crossed()) {
+    const double inward = side_of(at) == 0 ? 1 : -1;
+    flow.in += through(at, [=](double q) { return std::max(inward * q, 0.0); });
+    flow.out += through(at, [=](double q) { return std::max(-inward * q, 0.0); });
+  }
+  return flow;
 }
 
 double fluid_mass(const core::Grid& grid, const FluidState& fluid) {

@@ -6,16 +6,17 @@
 
 namespace polybed::fluid {
 
-/// Mass flow through the distributor and through the outlet, kg/s, upward positive.
+/// Mass flow, kg/s: in through the distributor and where it enters through a side, out through the outlet and where it
+/// leaves through a side.
 struct MassFlow {
   double in = 0, out = 0;
 };
 
 /// Flow at one time: rho_f Q on the boundary faces, as in the fluid's continuity equation. Zero in a closed column.
 /// Collective.
-/// \param own_flux  Q, vertical volume flux of the fluid alone, m/s
+/// \param own_flux  Q, volume flux of the fluid alone, m/s
 [[nodiscard]] MassFlow mass_flow(const core::Grid& grid, const Boundaries& boundaries, const FluidState& fluid,
-                                 const core::Field& own_flux);
+                                 const core::FaceField& own_flux);
 
 /// Mass in the owned cells, kg, sum of eps rho_f.
 [[nodiscard]] double fluid_mass(const core::Grid& grid, const FluidState& fluid);

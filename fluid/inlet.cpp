@@ -1,6 +1,7 @@
 #include "fluid/inlet.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -88,15 +89,22 @@ double scale_of_part(const core::Grid& grid, const std::vector<double>& from, co
 }  // namespace
 
 std::vector<double> face_shares(const core::Grid& grid, const std::vector<double>& from, const std::vector<double>& to,
-                                bool top) {
+                                core::ColumnFace at) {
   std::vector<double> share;
-  const double scale = scale_of_part(grid, from, to, top ? grid.column_cells(1) : 0);
-  for (int k = 0; k < grid.cells[2]; ++k)
-    for (int i = 0; i < grid.cells[0]; ++i) {
-      const double along_x = from.empty() ? 1.0 : overlap(grid, 0, grid.before[0] + i, from[0], to[0]);
-      const double along_z = from.size() < 2 ? 1.0 : overlap(grid, 2, grid.before[2] + k, from[1], to[1]);
-      share.push_back(scale * along_x * along_z);
-    }
+  const double scale = is_side(at) ? 1 : scale_of_part(grid, from, to, side_of(at) * grid.column_cells(1));
+  std::array<int, 3> cells = grid.cells, cell{};
+  cells[std::size_t(axis_of(at))] = 1;
+  for (cell[2] = 0; cell[2] < cells[2]; ++cell[2])
+    for (cell[1] = 0; cell[1] < cells[1]; ++cell[1])
+      for (cell[0] = 0; cell[0] < cells[0]; ++cell[0]) {
+        double product = scale;
+        for (std::size_t n = 0; n < from.size(); ++n) {
+          const int axis = axis_along(at, grid.dimensions, n);
+          const auto a = std::size_t(axis);
+          product *= overlap(grid, axis, grid.before[a] + cell[a], from[n], to[n]);
+        }
+        share.push_back(product);
+      }
   return share;
 }
 
@@ -107,14 +115,41 @@ Inlet::Inlet(const core::Grid& grid, const core::Scene& scene) : grid_(grid) {
   const std::size_t faces = std::size_t(grid.cells[0]) * std::size_t(grid.cells[2]);
   parts_.push_back({Ramp(scene.inlet.superficial_velocity), std::vector<double>(faces, 1.0), 1});
   for (const core::Jet& jet : scene.jets) {
+    if (is_side(jet.at)) {
+      add_port(jet, 1);
+      continue;
+    }
     Part part{Ramp(jet.superficial_velocity), face_shares(grid, jet.from, jet.to), 0};
     for (std::size_t f = 0; f < faces; ++f) parts_.front().share[f] -= part.share[f];
     parts_.push_back(std::move(part));
   }
-  for (const core::Feed& feed : scene.feeds)
-    if (feed.at == core::ColumnEnd::bottom)
+  for (const core::Feed& feed : scene.feeds) {
+    if (is_side(feed.at)) add_port(feed, 1);
+    if (feed.at == core::ColumnFace::bottom)
       parts_.push_back({Ramp(feed.superficial_velocity), face_shares(grid, feed.from, feed.to), 0});
+  }
+  for (const core::Discharge& discharge : scene.discharges) add_port(discharge, -1);
   for (Part& part : parts_) part.mean_share = mean_over_bottom(part.share);
+}
+
+/// \param inward  1 of what enters, -1 of what leaves
+template <class Side>
+void Inlet::add_port(const Side& part, double inward) {
+  const int axis = axis_of(part.at);
+  const double along = side_of(part.at) == 0 ? 1 : -1;
+  Port port{part.at, Ramp(part.superficial_velocity, inward * along), 0, {}, {}};
+  const std::vector<double> share = face_shares(grid_, part.from, part.to, part.at);
+  std::size_t f = 0;
+  for_each_boundary_row(grid_, axis, side_of(part.at), [&](Index begin, Index end) {
+    for (Index c = begin; c < end; ++c, ++f) {
+      if (share[f] == 0) continue;
+      port.face.push_back(c);
+      port.share.push_back(share[f]);
+    }
+  });
+  const double faces = core::sum_of_ranks(grid_, port.share) * grid_.spacing[1] / grid_.spacing[std::size_t(axis)];
+  port.mean_share = along * faces / core::open_faces_below(grid_, 0);
+  ports_.push_back(std::move(port));
 }
 
 double Inlet::mean_over_bottom(const std::vector<double>& share) const {
@@ -130,27 +165,38 @@ double Inlet::mean_over_bottom(const std::vector<double>& share) const {
 }
 
 template <class Value>
-void Inlet::set(core::Field& faces, Value&& value) const {
+void Inlet::set(core::FaceField& faces, Value&& value) const {
   std::size_t face = 0;
+  core::Field& upward = faces[1];
   for_each_boundary_row(grid_, 1, 0, [&](Index begin, Index end) {
     for (Index c = begin; c < end; ++c, ++face) {
-      faces[std::size_t(c)] = 0;
-      for (const Part& part : parts_) faces[std::size_t(c)] += part.share[face] * value(part.ramp);
+      upward[std::size_t(c)] = 0;
+      for (const Part& part : parts_) upward[std::size_t(c)] += part.share[face] * value(part.ramp);
     }
   });
+  for_each_side_face([&](std::size_t axis, Index f, Index) { faces[axis][std::size_t(f)] = 0; });
+  for (const Port& port : ports_)
+    for (std::size_t n = 0; n < port.face.size(); ++n)
+      faces[std::size_t(axis_of(port.at))][std::size_t(port.face[n])] += port.share[n] * value(port.ramp);
   if (above_ == 0) return;
   double even = 0;
   for (const Part& part : parts_) even += above_ * part.mean_share * value(part.ramp);
+  for (const Port& port : ports_) even += above_ * port.mean_share * value(port.ramp);
   for_each_boundary_row(grid_, 1, 1,
-                        [&](Index begin, Index end) { std::fill(faces.begin() + begin, faces.begin() + end, even); });
+                        [&](Index begin, Index end) { std::fill(upward.begin() + begin, upward.begin() + end, even); });
 }
 
-void Inlet::set_velocity(double t, core::Field& flux) const {
+void Inlet::set_velocity(double t, core::FaceField& flux) const {
   set(flux, [t](const Ramp& ramp) { return ramp.velocity(t); });
 }
 
-void Inlet::set_rate(double t, core::Field& rate) const {
+void Inlet::set_rate(double t, core::FaceField& rate) const {
   set(rate, [t](const Ramp& ramp) { return ramp.rate(t); });
+}
+
+void Inlet::extend(core::FaceField& velocity) const {
+  for (const Port& port : ports_)
+    for (const Index face : port.face) extend_beyond(grid_, port.at, face, velocity[std::size_t(axis_of(port.at))]);
 }
 
 double Inlet::mean_velocity(double t) const {
@@ -162,14 +208,19 @@ double Inlet::mean_velocity(double t) const {
 double Inlet::greatest() const {
   double most = 0;
   for (const Part& part : parts_) most = std::max(most, part.ramp.greatest());
+  for (const Port& port : ports_) most = std::max(most, port.ramp.greatest());
   return most;
 }
 
 std::vector<double> Inlet::breakpoints() const {
   std::vector<double> times;
-  for (const Part& part : parts_)
-    if (part.ramp.table().size() > 1)
-      for (const auto& point : part.ramp.table()) times.push_back(point.first);
+  const auto add = [&](const auto& list) {
+    for (const auto& one : list)
+      if (one.ramp.table().size() > 1)
+        for (const auto& point : one.ramp.table()) times.push_back(point.first);
+  };
+  add(parts_);
+  add(ports_);
   std::sort(times.begin(), times.end());
   times.erase(std::unique(times.begin(), times.end()), times.end());
   return times;
@@ -179,7 +230,8 @@ bool Inlet::shuts() const {
   std::vector<double> times = breakpoints();
   times.push_back(0);
   return std::any_of(times.begin(), times.end(), [&](double t) {
-    return std::all_of(parts_.begin(), parts_.end(), [&](const Part& part) { return part.ramp.velocity(t) == 0; });
+    const auto rests = [t](const auto& one) { return one.ramp.velocity(t) == 0; };
+    return std::all_of(parts_.begin(), parts_.end(), rests) && std::all_of(ports_.begin(), ports_.end(), rests);
   });
 }
 

@@ -1,4 +1,5 @@
-// What flows in through the distributor: a superficial velocity in time, and jets over parts of the bottom.
+// What flows in through the distributor: a superficial velocity in time, and jets over parts of the bottom; and what
+// flows through parts of the sides.
 #pragma once
 
 #include <utility>
@@ -32,25 +33,36 @@ class Ramp {
   std::vector<std::pair<double, double>> table_;
 };
 
-/// Share of each face of the bottom (or top), row by row, that lies in a part of it: from and to as of a jet; empty:
-/// all.
+/// Share of each of the block's faces at an end or side of the column, row by row, that lies in a part of it: from and
+/// to as of a jet; empty: all.
 [[nodiscard]] std::vector<double> face_shares(const core::Grid& grid, const std::vector<double>& from,
-                                              const std::vector<double>& to, bool top = false);
+                                              const std::vector<double>& to,
+                                              core::ColumnFace at = core::ColumnFace::bottom);
 
-/// The bottom of a column, and its top where the flow is given there too: the same volume, spread evenly. A jet takes
-/// its part of a face's area by overlap, so that what flows in does not depend on the grid; the rest of the face has
-/// the velocity of the distributor. Solids that are fed through the bottom are a part of the flux of the mixture and
-/// add to it.
+/// The bottom of a column, parts of its sides, and its top where the flow is given there too: the same volume, spread
+/// evenly. A jet takes its part of a face's area by overlap, so that what flows in does not depend on the grid; the
+/// rest of the face has the velocity of the distributor, or is wall in a side. Solids that are fed through the bottom
+/// or a side are a part of the flux of the mixture and add to it.
 class Inlet {
  public:
   Inlet() = default;
   /// Collective.
   Inlet(const core::Grid& grid, const core::Scene& scene);
 
-  /// Sets the vertical flux at time t, m/s, on the faces where it is given.
-  void set_velocity(double t, core::Field& flux) const;
+  /// Sets the flux at time t, m/s, on the faces where it is given.
+  void set_velocity(double t, core::FaceField& flux) const;
   /// Sets its rate, m/s2, there.
-  void set_rate(double t, core::Field& rate) const;
+  void set_rate(double t, core::FaceField& rate) const;
+  /// Goes on beyond the sides with a velocity as it is where something flows through them.
+  void extend(core::FaceField& velocity) const;
+  /// Calls body(axis, face, cell inside) for the faces of the sides where the flux is given.
+  template <class Body>
+  void for_each_side_face(Body&& body) const {
+    for (const Port& port : ports_) {
+      const core::Index inward = side_of(port.at) == 0 ? 0 : -grid_.stride(axis_of(port.at));
+      for (const core::Index face : port.face) body(std::size_t(axis_of(port.at)), face, face + inward);
+    }
+  }
   /// Mean over the bottom, m/s.
   [[nodiscard]] double mean_velocity(double t) const;
   /// The greatest speed of any part at any time, m/s.
@@ -68,13 +80,24 @@ class Inlet {
     std::vector<double> share;
     double mean_share;
   };
+  /// A part of a side, with the block's faces that it covers.
+  struct Port {
+    core::ColumnFace at;
+    Ramp ramp;          ///< along the axis
+    double mean_share;  ///< what flows in through all of it, over the bottom's area and its ramp's velocity
+    std::vector<core::Index> face;
+    std::vector<double> share;  ///< of each face
+  };
+  template <class Side>
+  void add_port(const Side& part, double inward);
   [[nodiscard]] double mean_over_bottom(const std::vector<double>& share) const;
   template <class Value>
-  void set(core::Field& faces, Value&& value) const;
+  void set(core::FaceField& faces, Value&& value) const;
 
   core::Grid grid_;
   std::vector<Part> parts_;  ///< the distributor first
-  double above_ = 0;         ///< what is even over the top, over the mean of the bottom; 0: not given there
+  std::vector<Port> ports_;
+  double above_ = 0;  ///< what is even over the top, over the mean of the bottom; 0: not given there
 };
 
 }  // namespace polybed::fluid

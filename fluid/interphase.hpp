@@ -16,8 +16,8 @@ struct Interphase {
   std::vector<core::FaceField> acceleration;  ///< a_j: dU_j/dt without the net pressure gradient, m/s2
   std::vector<core::Field> temperature;       ///< theta_j, m2/s2, of fluctuations; empty where no closure asks for it
   std::vector<core::Field> temperature_rate;  ///< d theta_j / dt, m2/s3; empty unless theta_j is an unknown
-  std::vector<core::Field> passed;            ///< what has crossed the ends, m, upward, [species][face]; empty: closed
-  std::vector<core::Field> passed_rate;       ///< d passed / dt, m/s
+  std::vector<core::FaceField> passed;        ///< what has crossed ends and sides, m, [species][axis][face]; or empty
+  std::vector<core::FaceField> passed_rate;   ///< d passed / dt, m/s
   std::vector<core::Field> exchange;          ///< b_j = beta_j / phi_j, kg/(m3 s), finite where phi_j = 0
   bool carry_pressure = true;                 ///< -phi_j grad p acts on them (form A), or on the fluid alone (form B)
 

@@ -14,47 +14,70 @@ using core::Field;
 using core::Index;
 
 Openings::Openings(const core::Grid& grid, const core::Scene& scene) : grid_(grid) {
+  using core::ColumnFace;
   if (scene.column.closed) return;
   open_ = scene.column.outlet == core::Outlet::open;
   for (const core::Feed& feed : scene.feeds) greatest_ = std::max(greatest_, std::abs(feed.velocity));
-  for (std::size_t j = 0; j < scene.species.size(); ++j) {
-    for (const Side side : {bottom, top}) add_gate(scene, j, side);
-    const auto fed = [&](Side side) {
-      return std::any_of(gates_.begin(), gates_.end(), [&](const Gate& g) { return g.species == j && g.side == side; });
-    };
-    if (fed(bottom)) passages_.push_back({j, bottom});
-    if (fed(top) || open_) passages_.push_back({j, top});
-  }
+  for (const core::Discharge& discharge : scene.discharges) add_discharge(discharge);
+  for (std::size_t j = 0; j < scene.species.size(); ++j)
+    for (const ColumnFace at : {ColumnFace::bottom, ColumnFace::top, ColumnFace::left, ColumnFace::right,
+                                ColumnFace::front, ColumnFace::back}) {
+      add_gate(scene, j, at);
+      const bool fed = !gates_.empty() && gates_.back().species == j && gates_.back().at == at;
+      const bool leaves =
+          std::any_of(discharges_.begin(), discharges_.end(), [&](const Gate& g) { return g.at == at; });
+      if (fed || leaves || (open_ && at == ColumnFace::top)) passages_.push_back({j, at});
+    }
 }
 
-/// All feeds of one species at one end. On a face that two of them share the velocity is the mean of theirs.
-void Openings::add_gate(const core::Scene& scene, std::size_t species, Side side) {
-  Gate gate{species, side, {}, {}, {}};
-  const std::size_t faces = std::size_t(grid_.cells[0]) * std::size_t(grid_.cells[2]);
-  const double upward = side == bottom ? 1 : -1;
-  std::vector<double> covered(faces, 0.0), velocity(faces, 0.0);
-  std::vector<Gate::Part> parts;
-  for (const core::Feed& feed : scene.feeds) {
-    if (feed.species != scene.species[species].name || (feed.at == core::ColumnEnd::top) != (side == top)) continue;
-    Gate::Part part{Ramp(feed.superficial_velocity, upward), face_shares(grid_, feed.from, feed.to, side == top)};
-    for (std::size_t f = 0; f < faces; ++f) {
-      covered[f] += part.share[f];
-      velocity[f] += part.share[f] * upward * feed.velocity;
-    }
-    parts.push_back(std::move(part));
-  }
-  if (parts.empty()) return;
-  for (const Gate::Part& part : parts) gate.parts.push_back({part.ramp, {}});
-  std::size_t f = 0;
-  for_each_boundary_row(grid_, 1, side, [&](Index begin, Index end) {
-    for (Index c = begin; c < end; ++c, ++f) {
-      if (covered[f] == 0) continue;
-      gate.face.push_back(c);
-      gate.velocity.push_back(velocity[f] / covered[f]);
-      for (std::size_t p = 0; p < parts.size(); ++p) gate.parts[p].share.push_back(parts[p].share[f]);
+/// Gives a gate those of the block's faces for which covered(n, face) is true, the n-th of its end or side.
+template <class Covered>
+void Openings::cover(Gate& gate, Covered&& covered) const {
+  std::vector<Part> whole(gate.parts.size());
+  for (std::size_t p = 0; p < whole.size(); ++p) std::swap(whole[p].share, gate.parts[p].share);
+  std::size_t n = 0;
+  for_each_boundary_row(grid_, axis_of(gate.at), side_of(gate.at), [&](Index begin, Index end) {
+    for (Index face = begin; face < end; ++face, ++n) {
+      if (!covered(n)) continue;
+      gate.face.push_back(face);
+      for (std::size_t p = 0; p < whole.size(); ++p) gate.parts[p].share.push_back(whole[p].share[n]);
     }
   });
+}
+
+/// All feeds of one species at one end or side. On a face that two of them share the velocity is the mean of theirs.
+void Openings::add_gate(const core::Scene& scene, std::size_t species, core::ColumnFace at) {
+  Gate gate{species, at, {}, {}, {}};
+  const double along = side_of(at) == 0 ? 1 : -1;
+  std::vector<double> covered, velocity;
+  for (const core::Feed& feed : scene.feeds) {
+    if (feed.species != scene.species[species].name || feed.at != at) continue;
+    Part part{Ramp(feed.superficial_velocity, along), face_shares(grid_, feed.from, feed.to, at)};
+    covered.resize(part.share.size());
+    velocity.resize(part.share.size());
+    for (std::size_t f = 0; f < part.share.size(); ++f) {
+      covered[f] += part.share[f];
+      velocity[f] += part.share[f] * along * feed.velocity;
+    }
+    gate.parts.push_back(std::move(part));
+  }
+  if (gate.parts.empty()) return;
+  cover(gate, [&](std::size_t f) {
+    if (covered[f] == 0) return false;
+    gate.velocity.push_back(velocity[f] / covered[f]);
+    return true;
+  });
   gates_.push_back(std::move(gate));
+}
+
+void Openings::add_discharge(const core::Discharge& discharge) {
+  const double outward = side_of(discharge.at) == 0 ? -1 : 1;
+  Gate gate{0, discharge.at, {}, {}, {}};
+  gate.parts.push_back(
+      {Ramp(discharge.superficial_velocity, outward), face_shares(grid_, discharge.from, discharge.to, discharge.at)});
+  const std::vector<double> share = gate.parts.front().share;
+  cover(gate, [&](std::size_t f) { return share[f] != 0; });
+  discharges_.push_back(std::move(gate));
 }
 
 double Openings::Gate::flux(std::size_t n, double t) const {
@@ -72,106 +95,139 @@ double Openings::Gate::flux_rate(std::size_t n, double t) const {
 std::vector<double> Openings::breakpoints() const {
   std::vector<double> times;
   for (const Gate& gate : gates_)
-    for (const Gate::Part& part : gate.parts)
+    for (const Part& part : gate.parts)
       if (part.ramp.table().size() > 1)
         for (const auto& point : part.ramp.table()) times.push_back(point.first);
   return times;
 }
 
 template <class Body>
-void Openings::for_each_fed_face(Body&& body) const {
-  const Index s = grid_.stride(1);
-  for (const Gate& gate : gates_)
+void Openings::for_each_face(const std::vector<Gate>& gates, Body&& body) const {
+  for (const Gate& gate : gates) {
+    const Index s = grid_.stride(axis_of(gate.at));
     for (std::size_t n = 0; n < gate.face.size(); ++n) {
       const Index above = gate.face[n], below = above - s;
-      if (gate.side == bottom)
+      if (side_of(gate.at) == 0)
         body(gate, n, std::size_t(above), std::size_t(above), std::size_t(below));
       else
         body(gate, n, std::size_t(above), std::size_t(below), std::size_t(above));
     }
+  }
 }
 
-void Openings::set_velocities(Interphase& solids) const {
-  for_each_fed_face([&](const Gate& gate, std::size_t n, std::size_t face, std::size_t, std::size_t) {
-    solids.velocity[gate.species][1][face] = gate.velocity[n];
+bool Openings::in_sides() const {
+  return std::any_of(passages_.begin(), passages_.end(), [](const Passage& p) { return is_side(p.at); });
+}
+
+void Openings::set_velocities(double t, Interphase& solids) const {
+  for_each_face(gates_, [&](const Gate& gate, std::size_t n, std::size_t face, std::size_t, std::size_t) {
+    solids.velocity[gate.species][gate.axis()][face] = gate.velocity[n];
   });
+  for (core::FaceField& velocity : solids.velocity) {
+    for_each_face(discharges_, [&](const Gate& gate, std::size_t, std::size_t face, std::size_t, std::size_t) {
+      velocity[gate.axis()][face] = 0;
+    });
+    for_each_face(discharges_, [&](const Gate& gate, std::size_t n, std::size_t face, std::size_t, std::size_t) {
+      velocity[gate.axis()][face] += gate.flux(n, t);
+    });
+  }
 }
 
 void Openings::set_ghosts(double t, Interphase& solids) const {
-  for_each_fed_face([&](const Gate& gate, std::size_t n, std::size_t, std::size_t inside, std::size_t beyond) {
+  for_each_face(gates_, [&](const Gate& gate, std::size_t n, std::size_t face, std::size_t inside, std::size_t beyond) {
     Field& phi = solids.fraction[gate.species];
     phi[beyond] = 2 * gate.flux(n, t) / gate.velocity[n] - phi[inside];
+    if (is_side(gate.at)) extend_beyond(grid_, gate.at, Index(face), solids.velocity[gate.species][gate.axis()]);
+  });
+  for_each_face(discharges_, [&](const Gate& gate, std::size_t, std::size_t face, std::size_t, std::size_t) {
+    for (core::FaceField& velocity : solids.velocity) extend_beyond(grid_, gate.at, Index(face), velocity[gate.axis()]);
   });
 }
 
 void Openings::set_rate_ghosts(double t, std::size_t j, Interphase& solids) const {
-  for_each_fed_face([&](const Gate& gate, std::size_t n, std::size_t, std::size_t inside, std::size_t beyond) {
+  for_each_face(gates_, [&](const Gate& gate, std::size_t n, std::size_t, std::size_t inside, std::size_t beyond) {
     if (gate.species != j) return;
     Field& rate = solids.fraction_rate[j];
     rate[beyond] = 2 * gate.flux_rate(n, t) / gate.velocity[n] - rate[inside];
   });
 }
 
-void Openings::cross(double t, std::size_t j, Interphase& solids, Field& flux) const {
-  for (const int side : {bottom, top})
-    for_each_boundary_row(grid_, 1, side,
-                          [&](Index begin, Index end) { std::fill(flux.begin() + begin, flux.begin() + end, 0.0); });
+void Openings::cross(double t, std::size_t j, Interphase& solids, core::FaceField& flux) const {
+  const int top = side_of(core::ColumnFace::top);
+  for (const int side : {0, top})
+    for_each_boundary_row(grid_, 1, side, [&](Index begin, Index end) {
+      std::fill(flux[1].begin() + begin, flux[1].begin() + end, 0.0);
+    });
+  const auto clear = [&](const Gate& gate, std::size_t, std::size_t face, std::size_t, std::size_t) {
+    if (is_side(gate.at)) flux[gate.axis()][face] = 0;
+  };
+  for_each_face(gates_, clear);
+  for_each_face(discharges_, clear);
+  const double* phi = solids.fraction[j].data();
   if (open_) {
     const Index s = grid_.stride(1);
-    const double *phi = solids.fraction[j].data(), *u = solids.velocity[j][1].data();
+    const double* u = solids.velocity[j][1].data();
     for_each_boundary_row(grid_, 1, top, [&](Index begin, Index end) {
-      for (Index c = begin; c < end; ++c) flux[std::size_t(c)] = std::max(u[c], 0.0) * phi[c - s];
+      for (Index c = begin; c < end; ++c) flux[1][std::size_t(c)] = std::max(u[c], 0.0) * phi[c - s];
     });
   }
-  for_each_fed_face([&](const Gate& gate, std::size_t n, std::size_t face, std::size_t, std::size_t) {
-    if (gate.species == j) flux[face] = gate.flux(n, t);
+  for_each_face(gates_, [&](const Gate& gate, std::size_t n, std::size_t face, std::size_t, std::size_t) {
+    if (gate.species == j) flux[gate.axis()][face] = gate.flux(n, t);
   });
-  for (const Passage& passage : passages_)
-    if (passage.species == j)
-      for_each_boundary_row(grid_, 1, passage.side, [&](Index begin, Index end) {
-        std::copy(flux.begin() + begin, flux.begin() + end, solids.passed_rate[j].begin() + begin);
-      });
+  for_each_face(discharges_, [&](const Gate& gate, std::size_t n, std::size_t face, std::size_t inside, std::size_t) {
+    flux[gate.axis()][face] += gate.flux(n, t) * phi[inside];
+  });
+  for (const Passage& passage : passages_) {
+    if (passage.species != j) continue;
+    const auto a = std::size_t(axis_of(passage.at));
+    for_each_boundary_row(grid_, int(a), side_of(passage.at), [&](Index begin, Index end) {
+      std::copy(flux[a].begin() + begin, flux[a].begin() + end, solids.passed_rate[j][a].begin() + begin);
+    });
+  }
 }
 
 void Openings::hold(std::vector<core::FaceField>& acceleration) const {
-  for_each_fed_face([&](const Gate& gate, std::size_t, std::size_t face, std::size_t, std::size_t) {
-    acceleration[gate.species][1][face] = 0;
+  for_each_face(gates_, [&](const Gate& gate, std::size_t, std::size_t face, std::size_t, std::size_t) {
+    acceleration[gate.species][gate.axis()][face] = 0;
   });
 }
 
 void Openings::hold(const Interphase& solids, core::FaceField& mobility) const {
   if (!open_) return;
-  for_each_fed_face([&](const Gate& gate, std::size_t, std::size_t face, std::size_t inside, std::size_t beyond) {
+  for_each_face(gates_, [&](const Gate& gate, std::size_t, std::size_t face, std::size_t inside, std::size_t beyond) {
     const Field& phi = solids.fraction[gate.species];
-    if (gate.side == top && solids.carry_pressure)
+    if (gate.at == core::ColumnFace::top && solids.carry_pressure)
       mobility[1][face] -= 0.5 * (phi[inside] + phi[beyond]) / solids.density[gate.species];
   });
 }
 
-bool Openings::holds(std::size_t j, Index face) const {
+bool Openings::holds(std::size_t j, int axis, Index face) const {
   return std::any_of(gates_.begin(), gates_.end(), [&](const Gate& gate) {
-    return gate.species == j && std::binary_search(gate.face.begin(), gate.face.end(), face);
+    return gate.species == j && axis_of(gate.at) == axis &&
+           std::binary_search(gate.face.begin(), gate.face.end(), face);
   });
 }
 
 std::vector<Passed> Openings::passed(const Interphase& solids) const {
   std::vector<Passed> result(solids.species());
   if (!present()) return result;
-  const double area = grid_.spacing[0] * grid_.spacing[2];
-  const double* open = grid_.metric ? grid_.metric->open[1].data() : nullptr;
-  for (const Passage& passage : passages_)
-    for_each_boundary_row(grid_, 1, passage.side, [&](Index begin, Index end) {
+  for (const Passage& passage : passages_) {
+    const int axis = axis_of(passage.at);
+    const auto a = std::size_t(axis);
+    const double area = a == 1 ? grid_.spacing[0] * grid_.spacing[2] : grid_.cell_volume() / grid_.spacing[a];
+    const double inward = side_of(passage.at) == 0 ? 1 : -1;
+    const double* open = grid_.metric ? grid_.metric->open[a].data() : nullptr;
+    for_each_boundary_row(grid_, axis, side_of(passage.at), [&](Index begin, Index end) {
       for (Index c = begin; c < end; ++c) {
-        const double upward = (open ? open[c] : 1.0) * area * solids.passed[passage.species][std::size_t(c)];
+        const double along = (open ? open[c] : 1.0) * area * solids.passed[passage.species][a][std::size_t(c)];
         Passed& sum = result[passage.species];
-        if (passage.side == bottom)
-          sum.in += upward;
-        else if (holds(passage.species, c))
-          sum.in -= upward;
+        if (passage.at == core::ColumnFace::bottom || holds(passage.species, axis, c))
+          sum.in += inward * along;
         else
-          sum.out += upward;
+          sum.out -= inward * along;
       }
     });
+  }
   std::vector<double> sums;
   for (const Passed& p : result) sums.insert(sums.end(), {p.in, p.out});
   core::add_over_ranks(grid_, sums);

@@ -1,8 +1,8 @@
-// Where solids cross the ends of the column: they are fed through the bottom or the top, and leave through an open top.
+// Where solids cross the ends and sides of the column: they are fed, and leave through an open top or a discharge.
 //
-// What has crossed each face since the start, m (volume per area, upward), is an unknown with the flux of continuity as
-// its rate, integrated with the fractions and by the same sums: the mass of a species in the column, less what came in,
-// plus what left, stays what it was to round-off, whatever the steps.
+// What has crossed each face since the start, m (volume per area, along the axis), is an unknown with the flux of
+// continuity as its rate, integrated with the fractions and by the same sums: the mass of a species in the column, less
+// what came in, plus what left, stays what it was to round-off, whatever the steps.
 #pragma once
 
 #include <vector>
@@ -20,17 +20,16 @@ struct Passed {
 
 class Openings {
  public:
-  enum Side { bottom = 0, top = 1 };
-  /// A species and an end that it crosses: the unknowns of one row of faces.
+  /// A species and an end or side that it crosses: the unknowns of its faces.
   struct Passage {
     std::size_t species;
-    Side side;
+    core::ColumnFace at;
   };
 
   Openings() = default;
   Openings(const core::Grid& grid, const core::Scene& scene);
 
-  /// False where all ends are screens and nothing is fed: then no other member need be called.
+  /// False where all ends and sides are screens and nothing is fed: then no other member need be called.
   [[nodiscard]] bool present() const { return !passages_.empty(); }
   [[nodiscard]] const std::vector<Passage>& passages() const { return passages_; }
   /// The greatest speed at which anything is fed, m/s.
@@ -38,48 +37,56 @@ class Openings {
   /// Times at which a feed's rate jumps.
   [[nodiscard]] std::vector<double> breakpoints() const;
 
-  /// Velocities on fed faces: those of the feed.
-  void set_velocities(Interphase& solids) const;
-  /// Ghost fractions beyond fed faces, so that the mean on the face is that of the feed, F_j/U_j.
+  /// Whether solids cross a side.
+  [[nodiscard]] bool in_sides() const;
+  /// Velocities on fed faces: those of the feed; on faces of a discharge those of the mixture that leaves.
+  void set_velocities(double t, Interphase& solids) const;
+  /// Ghost fractions beyond fed faces, so that the mean on the face is that of the feed, F_j/U_j; in sides ghosts of
+  /// the velocities, too.
   void set_ghosts(double t, Interphase& solids) const;
-  /// Fluxes of species j through the bottom and the top: what is fed, and out of an open top what the velocity there
-  /// takes along, phi_j max(U_j, 0): never in. Fills solids.passed_rate.
-  void cross(double t, std::size_t j, Interphase& solids, core::Field& vertical_flux) const;
+  /// Fluxes of species j through the ends and sides: what is fed, what a discharge takes from the cells next to it, and
+  /// out of an open top what the velocity there takes along, phi_j max(U_j, 0): never in. Fills solids.passed_rate.
+  void cross(double t, std::size_t j, Interphase& solids, core::FaceField& flux) const;
   /// Ghosts of the rate of species j's fraction beyond fed faces, so that the mean on the face is that of F_j/U_j.
   void set_rate_ghosts(double t, std::size_t j, Interphase& solids) const;
   /// On fed faces of an open outlet: solids that are fed do not accelerate, and do not yield to the pressure.
   void hold(std::vector<core::FaceField>& acceleration) const;
   void hold(const Interphase& solids, core::FaceField& mobility) const;
-  /// True if the velocity of species j on a vertical face is that of a feed.
-  [[nodiscard]] bool holds(std::size_t j, core::Index face) const;
+  /// True if the velocity of species j on a face of an axis is that of a feed.
+  [[nodiscard]] bool holds(std::size_t j, int axis, core::Index face) const;
 
   /// What each species has passed since the start. Collective.
   [[nodiscard]] std::vector<Passed> passed(const Interphase& solids) const;
 
  private:
-  /// One species fed through some faces of one end.
+  struct Part {
+    Ramp ramp;                  ///< along the axis, m/s
+    std::vector<double> share;  ///< of each face
+  };
+  /// Faces of one end or side through which one species is fed, or the mixture leaves.
   struct Gate {
     std::size_t species;
-    Side side;
+    core::ColumnFace at;
     std::vector<core::Index> face;
-    std::vector<double> velocity;  ///< upward, m/s, of each face
-    struct Part {
-      Ramp ramp;                  ///< upward, m/s
-      std::vector<double> share;  ///< of each face
-    };
+    std::vector<double> velocity;  ///< of a feed, along the axis, m/s, of each face
     std::vector<Part> parts;
     [[nodiscard]] double flux(std::size_t n, double t) const;
     [[nodiscard]] double flux_rate(std::size_t n, double t) const;
+    [[nodiscard]] std::size_t axis() const { return std::size_t(axis_of(at)); }
   };
-  void add_gate(const core::Scene& scene, std::size_t species, Side side);
-  /// Calls body(gate, n, face, inside, beyond): cells on either side of the n-th face of a gate.
+  void add_gate(const core::Scene& scene, std::size_t species, core::ColumnFace at);
+  void add_discharge(const core::Discharge& discharge);
+  template <class Covered>
+  void cover(Gate& gate, Covered&& covered) const;
+  /// Calls body(gate, n, face, inside, beyond): cells on either side of the n-th face of each of the gates.
   template <class Body>
-  void for_each_fed_face(Body&& body) const;
+  void for_each_face(const std::vector<Gate>& gates, Body&& body) const;
 
   core::Grid grid_;
   bool open_ = false;
   double greatest_ = 0;
-  std::vector<Gate> gates_;
+  std::vector<Gate> gates_;       ///< of feeds
+  std::vector<Gate> discharges_;  ///< of all species
   std::vector<Passage> passages_;
 };
 

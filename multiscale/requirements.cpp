@@ -31,23 +31,25 @@ void draw_in(core::Scene& scene, std::size_t axis, int cells) {
   column.profile.clear();       // a part of the inside of a round column
   column.cells[axis] = cells;
   column.size[axis] *= share;
+  const auto draw = [&](auto& part, core::ColumnFace at) {
+    for (std::size_t n = 0; n < part.from.size(); ++n) {
+      if (std::size_t(axis_along(at, column.dimensions, n)) != axis) continue;
+      part.from[n] *= share;
+      part.to[n] *= share;
+    }
+  };
+  for (core::Jet& jet : scene.jets) draw(jet, jet.at);
+  for (core::Feed& feed : scene.feeds) draw(feed, feed.at);
+  for (core::Discharge& discharge : scene.discharges) draw(discharge, discharge.at);
+  for (core::Layer& layer : scene.layers) draw(layer, core::ColumnFace::bottom);
   if (axis == 1) {
     scene.bed.static_height *= share;
     for (core::Layer& layer : scene.layers) layer.height *= share;
     return;
   }
   if (column.is_round()) column.shape = core::ColumnShape::box;
-  const std::size_t direction = axis == 0 ? 0 : 1;
-  const auto draw = [&](auto& part) {
-    if (part.from.size() <= direction) return;  // all across
-    part.from[direction] *= share;
-    part.to[direction] *= share;
-  };
-  for (core::Jet& jet : scene.jets) draw(jet);
-  for (core::Feed& feed : scene.feeds) draw(feed);
-  for (core::Layer& layer : scene.layers) draw(layer);
   const bool fed_above = std::any_of(scene.feeds.begin(), scene.feeds.end(),
-                                     [](const core::Feed& feed) { return feed.at == core::ColumnEnd::top; });
+                                     [](const core::Feed& feed) { return feed.at == core::ColumnFace::top; });
   if (fed_above) column.outlet = core::Outlet::screen;  // one that is left of a few cells may be fed shut
 }
 

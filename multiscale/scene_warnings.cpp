@@ -19,12 +19,13 @@ namespace {
 using Table = std::vector<std::pair<double, double>>;  ///< (time, velocity)
 using Lines = std::vector<std::string>;
 
-/// What flows through the bottom: the inlet and the jets, each by its name.
-std::vector<std::pair<std::string, Table>> inflows_of(const core::Scene& scene) {
+/// What flows through the bottom, or the sides as well: the inlet and the jets, each by its name.
+std::vector<std::pair<std::string, Table>> inflows_of(const core::Scene& scene, bool sides = false) {
   std::vector<std::pair<std::string, Table>> inflows{{"inlet.superficial_velocity", scene.inlet.superficial_velocity}};
   for (std::size_t n = 0; n < scene.jets.size(); ++n)
-    inflows.emplace_back(fmt::format("superficial_velocity of [[jet]] number {}", n + 1),
-                         scene.jets[n].superficial_velocity);
+    if (sides || !is_side(scene.jets[n].at))
+      inflows.emplace_back(fmt::format("superficial_velocity of [[jet]] number {}", n + 1),
+                           scene.jets[n].superficial_velocity);
   return inflows;
 }
 
@@ -97,7 +98,7 @@ void warn_of_fast_gas(const core::Scene& scene, double density, Lines& warnings)
   constexpr double adiabatic_exponent = 1.4, fast = 0.3;  // 5 % of the density
   if (scene.fluid.compressible() || density >= relevance::lightest_liquid) return;
   const double sound = std::sqrt(adiabatic_exponent * scene.fluid.outlet_pressure / density);
-  for (const auto& [name, table] : inflows_of(scene)) {
+  for (const auto& [name, table] : inflows_of(scene, true)) {
     const double mach = std::max(greatest_of(table), -least_of(table)) / sound;
     if (mach > fast)
       warnings.push_back(fmt::format(

@@ -12,15 +12,16 @@ measures::Table<Told> history_table(bool compressible, bool openings) {
   if (compressible) {
     table.push_back(
         {"mass_fluid", "kg", "of a compressible fluid: in the column", [](const Told& t) { return t.fluid_mass; }});
-    table.push_back({"fluid_in", "kg", "of a compressible fluid: in through the distributor since the start",
+    table.push_back({"fluid_in", "kg",
+                     "of a compressible fluid: in through the distributor and the sides since the start",
                      [](const Told& t) { return t.account.in; }});
-    table.push_back({"fluid_out", "kg", "of a compressible fluid: out at the top since the start",
+    table.push_back({"fluid_out", "kg", "of a compressible fluid: out at the top and through the sides since the start",
                      [](const Told& t) { return t.account.out; }});
   }
   if (openings) {
-    table.push_back({"in", "kg", "fed since the start; if an end is open to solids or they are fed",
+    table.push_back({"in", "kg", "fed since the start; if solids can leave or are fed",
                      [](const Told& t, measures::Members j) { return measures::sum_of(t.in, j); }});
-    table.push_back({"out", "kg", "left since the start; if an end is open to solids or they are fed",
+    table.push_back({"out", "kg", "left since the start; if solids can leave or are fed",
                      [](const Told& t, measures::Members j) { return measures::sum_of(t.out, j); }});
   }
   return table;

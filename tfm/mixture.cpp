@@ -22,7 +22,10 @@ Fields::Fields(const Constants& constants)
       flux_rate(constants.grid) {
   solids.carry_pressure = !constants.form_b;
   if (!constants.openings.present()) return;
-  solids.passed.assign(constants.species(), core::make_field(constants.grid));
+  core::FaceField nothing;
+  for (const fluid::Openings::Passage& passage : constants.openings.passages())
+    nothing[std::size_t(axis_of(passage.at))] = core::make_field(constants.grid);
+  solids.passed.assign(constants.species(), nothing);
   solids.passed_rate = solids.passed;
 }
 

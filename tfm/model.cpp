@@ -59,7 +59,7 @@ Model::Model(const core::Scene& scene, core::Timers& timers, const std::shared_p
       momentum_(momentum_of(continuum_scene(scene))),
       equations_(scene, make_constants(scene, ranks),
                  fluid::Boundaries(core::grid_of(scene.column, ranks), fluid::ends_of(scene),
-                                   scene.column.outlet == core::Outlet::open),
+                                   scene.column.outlet == core::Outlet::open, fluid::crossed_sides(scene)),
                  fluid::Inlet(core::grid_of(scene.column, ranks), scene), make_discretisation(scene.tfm, momentum_),
                  timers),
       integrator_(choose_integrator(scene, constants(), effects(), inlet().greatest())),
@@ -90,18 +90,19 @@ void Model::fill_state(const core::Scene& scene) {
   const core::Grid& grid = constants().grid;
   Fields& fields = equations_.fields();
   fill_bed(scene, constants(), effects().solids_stress.get(), fields.solids);
-  constants().openings.set_velocities(fields.solids);
+  constants().openings.set_velocities(time_, fields.solids);
   // In a column whose diameter changes the flow finds its way as after a jump, round solids at rest.
   const bool tapered = grid.metric && grid.metric->tapered();
   const double inflow = tapered ? 0 : inlet().mean_velocity(0);
   core::for_each_row(grid, core::owned_faces(grid, 1), [&](Index begin, Index end) {
     std::fill(fields.fluid.flux[1].begin() + begin, fields.fluid.flux[1].begin() + end, inflow);
   });
-  core::Field even = core::make_field(grid);  // what flows in before the jets have their own velocities
+  core::FaceField even = core::make_face_field(grid);  // what flows in before jets and sides have their own velocities
   for (const int side : {0, 1}) {
     if (side == 1 && boundaries().has_outlet()) continue;
-    fluid::for_each_boundary_row(
-        grid, 1, side, [&](Index begin, Index end) { std::fill(even.begin() + begin, even.begin() + end, inflow); });
+    fluid::for_each_boundary_row(grid, 1, side, [&](Index begin, Index end) {
+      std::fill(even[1].begin() + begin, even[1].begin() + end, inflow);
+    });
   }
   y_.resize(layout_.size());
   dydt_.assign(layout_.size(), 0.0);

@@ -117,18 +117,21 @@ void clear_closed(const core::Grid& grid, const StateLayout& layout, std::span<d
   }
 }
 
-/// The flux of a state through the ends at which that is given; 0 elsewhere.
-core::Field flux_at_ends(const core::Grid& grid, const fluid::Boundaries& boundaries, const StateLayout& layout,
-                         std::span<const double> y) {
-  core::Field flux = core::make_field(grid), at_ends = flux;
+/// The flux of a state through the ends and sides where that is given; 0 elsewhere.
+core::FaceField flux_at_ends(const core::Grid& grid, const fluid::Boundaries& boundaries, const StateLayout& layout,
+                             std::span<const double> y) {
+  core::FaceField flux = core::make_face_field(grid), at_ends = flux;
   for (const StateLayout::Entry& entry : layout.entries())
-    if (entry.kind == StateLayout::Entry::Kind::flux && entry.axis == 1) layout.unpack(entry, y, flux);
-  for (const int side : {0, 1}) {
-    if (side == 1 && boundaries.has_outlet()) continue;
-    fluid::for_each_boundary_row(grid, 1, side, [&](core::Index begin, core::Index end) {
-      std::copy(flux.begin() + begin, flux.begin() + end, at_ends.begin() + begin);
+    if (entry.kind == StateLayout::Entry::Kind::flux) layout.unpack(entry, y, flux[std::size_t(entry.axis)]);
+  const auto take = [&](core::ColumnFace at) {
+    const auto a = std::size_t(axis_of(at));
+    fluid::for_each_boundary_row(grid, axis_of(at), side_of(at), [&](core::Index begin, core::Index end) {
+      std::copy(flux[a].begin() + begin, flux[a].begin() + end, at_ends[a].begin() + begin);
     });
-  }
+  };
+  take(core::ColumnFace::bottom);
+  if (!boundaries.has_outlet()) take(core::ColumnFace::top);
+  for (const core::ColumnFace at : boundaries.crossed()) take(at);
   return at_ends;
 }
 

@@ -38,10 +38,10 @@ void start_from_the_top(const core::Grid& grid, core::Field& pressure) {
 }
 
 /// The inlet's velocity on the faces where it is given, of a field that is 0 elsewhere.
-core::Field inlet_velocity(const RightHandSide& equations, double t) {
-  core::Field bottom = core::make_field(equations.constants().grid);
-  equations.inlet().set_velocity(t, bottom);
-  return bottom;
+core::FaceField inlet_velocity(const RightHandSide& equations, double t) {
+  core::FaceField flux = core::make_face_field(equations.constants().grid);
+  equations.inlet().set_velocity(t, flux);
+  return flux;
 }
 
 }  // namespace
@@ -88,9 +88,8 @@ void CompressibleFluid::begin_from_other(double time, std::span<const double> y)
 
 void CompressibleFluid::begin(double time) {
   const fluid::FluidState& fluid = equations_.fields().fluid;
-  ledger_.begin(
-      time, ledger_.at(time),
-      fluid::mass_flow(equations_.constants().grid, equations_.boundaries(), fluid, fluid.compression.flux[1]));
+  ledger_.begin(time, ledger_.at(time),
+                fluid::mass_flow(equations_.constants().grid, equations_.boundaries(), fluid, fluid.compression.flux));
 }
 
 void CompressibleFluid::accept(double time, std::span<const double> y) {
@@ -119,20 +118,20 @@ void CompressibleFluid::read(const core::Checkpoint& checkpoint, double time) {
 }
 
 void project_jump(RightHandSide& equations, const StateLayout& layout, double velocity_scale, double time,
-                  const core::Field& before, std::span<double> y) {
+                  const core::FaceField& before, std::span<double> y) {
   const Constants& constants = equations.constants();
   if (equations.boundaries().closed()) return;
-  core::Field jump = inlet_velocity(equations, std::nextafter(time, INFINITY));
+  core::FaceField jump = inlet_velocity(equations, std::nextafter(time, INFINITY));
   double most = 0;
-  for (std::size_t f = 0; f < jump.size(); ++f) most = std::max(most, std::abs(jump[f] -= before[f]));
+  for (std::size_t a = 0; a < jump.size(); ++a)
+    for (std::size_t f = 0; f < jump[a].size(); ++f) most = std::max(most, std::abs(jump[a][f] -= before[a][f]));
   if (core::greatest_of_ranks(constants.grid, most) <= 1e-9 * velocity_scale) return;
   if (!equations.evaluate(time, layout, y)) return;
   Fields& fields = equations.fields();
   const core::Field pressure = fields.fluid.pressure;
-  for (core::Field& rate : fields.flux_rate.free) std::fill(rate.begin(), rate.end(), 0.0);
   for (core::FaceField& a : fields.solids.acceleration)
     for (core::Field& rate : a) std::fill(rate.begin(), rate.end(), 0.0);
-  fields.flux_rate.free[1] = jump;
+  fields.flux_rate.free = jump;
   fluid::Pressure impulse(constants.grid, 1e-10);
   std::fill(fields.fluid.pressure.begin(), fields.fluid.pressure.end(), 0.0);
   impulse.solve(fields.flux_rate, fields.fluid.flux, 0.0, fields.fluid.pressure);

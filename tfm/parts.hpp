@@ -49,7 +49,7 @@ class CompressibleFluid : public StepPart {
 /// with the operator that the pressure uses. Nothing happens to a jump below 1e-9 of a velocity scale, m/s. Collective.
 /// \param before  the inlet's velocity on the faces where it is given, of a field that is 0 elsewhere, m/s
 void project_jump(RightHandSide& equations, const StateLayout& layout, double velocity_scale, double time,
-                  const core::Field& before, std::span<double> y);
+                  const core::FaceField& before, std::span<double> y);
 
 /// Of an incompressible fluid: one that is compressible learns of a jump by sound.
 class InletJump : public StepPart {

@@ -68,7 +68,8 @@ void Preconditioner::build(const Fields& fields, const Density& density, int axi
       const auto a = std::size_t(axis), at = std::size_t(face);
       const bool open = !constants_.grid.metric || constants_.grid.metric->open[a][at] > 0;
       for (std::size_t j = 0; j < constants_.species(); ++j) {
-        moves_[j] = open && (place == Place::inside || (place == Place::outlet && !constants_.openings.holds(j, face)));
+        moves_[j] =
+            open && (place == Place::inside || (place == Place::outlet && !constants_.openings.holds(j, axis, face)));
         const bool carried = moves_[j] && (place == Place::inside || fields.solids.velocity[j][a][at] > 0);
         fraction_[a][j][at] = carried ? face_mean(fields.solids.fraction[j].data(), face, s) : 0.0;
       }

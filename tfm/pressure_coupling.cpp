@@ -57,7 +57,7 @@ void pack_rates(const StateLayout& layout, const Fields& fields, std::span<doubl
         layout.pack(entry, fields.solids.temperature_rate[j], dydt);
         break;
       case Kind::passed:
-        layout.pack(entry, fields.solids.passed_rate[j], dydt);
+        layout.pack(entry, fields.solids.passed_rate[j][a], dydt);
         break;
       case Kind::pressure:
         if (fields.fluid.compression.present()) layout.pack(entry, fields.fluid.compression.pressure_rate, dydt);

@@ -133,8 +133,8 @@ std::optional<fluid::MassFlow> RightHandSide::mass_flow(double t, const StateLay
   layout.unpack(y, fields_.solids, fields_.fluid);
   set_inlet_velocity(t);
   if (!effects_.compressible->set_density(fields_.fluid)) return std::nullopt;
-  fluid_flux_through_ends(constants_, side_of(t), fields_, flux_[1]);
-  return fluid::mass_flow(constants_.grid, boundaries_, fields_.fluid, fields_.fluid.compression.flux[1]);
+  fluid_flux_through_ends(constants_, boundaries_, side_of(t), fields_, flux_);
+  return fluid::mass_flow(constants_.grid, boundaries_, fields_.fluid, fields_.fluid.compression.flux);
 }
 
 /// Pressure of the solids and, where effects give them any, viscosity and granular temperature.
@@ -181,16 +181,18 @@ void RightHandSide::set_flux_rate(double t) {
 
 /// Ghosts of the unknowns, and what follows from them without a closure: composition and fluid velocity.
 void RightHandSide::fill_ghosts(double t) {
-  if (constants_.openings.present()) constants_.openings.set_velocities(fields_.solids);
+  if (constants_.openings.present()) constants_.openings.set_velocities(side_of(t), fields_.solids);
   boundaries_.fill(state_ghosts_);
   if (constants_.openings.present()) {
     constants_.openings.set_ghosts(side_of(t), fields_.solids);
+    const int every = constants_.openings.in_sides() ? 1 : 2;
     for (core::Field& phi : fields_.solids.fraction)  // the row beyond the end, of the neighbours to the sides
-      for (int axis = 0; axis < constants_.grid.dimensions; axis += 2) boundaries_.join(phi, axis);
+      for (int axis = 0; axis < constants_.grid.dimensions; axis += every) boundaries_.join(phi, axis);
   }
   composition(constants_, fields_);
   fluid::fluid_velocity(constants_.grid, fields_.solids, fields_.fluid);
   boundaries_.fill_velocity(fields_.fluid.velocity, fluid::WallSlip::no_slip);
+  inlet_.extend(fields_.fluid.velocity);
 }
 
 /// The side of a breakpoint or jump of the inlet that a time stands for: the end of a step lies before it.
@@ -201,12 +203,12 @@ double RightHandSide::side_of(double t) const {
 /// The flux through the distributor is what the inlet says, not what the integrator has made of its rate.
 void RightHandSide::set_inlet_velocity(double t) {
   if (boundaries_.closed()) return;
-  inlet_.set_velocity(side_of(t), fields_.fluid.flux[1]);
+  inlet_.set_velocity(side_of(t), fields_.fluid.flux);
 }
 
 void RightHandSide::set_inlet_rate(double t) {
   if (boundaries_.closed()) return;
-  inlet_.set_rate(side_of(t), fields_.flux_rate.free[1]);
+  inlet_.set_rate(side_of(t), fields_.flux_rate.free);
 }
 
 bool RightHandSide::admissible() const {

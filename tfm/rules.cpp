@@ -61,8 +61,8 @@ Broken outlet_fed_shut(const Scene& scene) {
   std::map<std::string, std::vector<double>> fed;  // of each face, by species
   for (std::size_t n = 0; n < scene.feeds.size(); ++n) {
     const core::Feed& feed = scene.feeds[n];
-    if (feed.at != core::ColumnEnd::top) continue;
-    const std::vector<double> share = fluid::face_shares(grid, feed.from, feed.to, true);
+    if (feed.at != core::ColumnFace::top) continue;
+    const std::vector<double> share = fluid::face_shares(grid, feed.from, feed.to, feed.at);
     std::vector<double>& sum = fed.try_emplace(feed.species, share.size(), 0.0).first->second;
     const bool was_shut = std::find(sum.begin(), sum.end(), 0.0) == sum.end();
     std::transform(sum.begin(), sum.end(), share.begin(), sum.begin(), std::plus());
@@ -77,19 +77,34 @@ Broken on_closed_cells(const Scene& scene) {
   Broken broken;
   if ((!scene.column.is_round() && !scene.column.is_tapered()) || scene.column.closed) return broken;
   const core::Grid grid = core::grid_of(scene.column, nullptr);
-  const auto at_top = [](const auto& part) {
-    if constexpr (requires { part.at; }) return part.at == core::ColumnEnd::top;
-    return false;
-  };
   const auto see = [&](const auto& parts, const char* what) {
     for (std::size_t n = 0; n < parts.size(); ++n) {
-      const std::vector<double> share = fluid::face_shares(grid, parts[n].from, parts[n].to, at_top(parts[n]));
+      const std::vector<double> share = fluid::face_shares(grid, parts[n].from, parts[n].to, parts[n].at);
       if (std::all_of(share.begin(), share.end(), [](double one) { return one == 0; }))
         broken.add({what, std::to_string(n + 1)});
     }
   };
   see(scene.feeds, "[[feed]]");
   see(scene.jets, "[[jet]]");
+  return broken;
+}
+
+/// A discharge and a feed through one face of a cell, on which the solids have one velocity alone.
+Broken discharge_beside_a_feed(const Scene& scene) {
+  Broken broken;
+  const core::Grid grid = core::grid_of(scene.column, nullptr);
+  const auto shares = [&](const auto& part) { return fluid::face_shares(grid, part.from, part.to, part.at); };
+  for (std::size_t n = 0; n < scene.discharges.size(); ++n)
+    for (std::size_t k = 0; k < scene.feeds.size(); ++k) {
+      if (scene.discharges[n].at != scene.feeds[k].at) continue;
+      const std::vector<double> out = shares(scene.discharges[n]), in = shares(scene.feeds[k]);
+      bool meet = false;
+      for (std::size_t f = 0; f < out.size(); ++f) meet = meet || (out[f] > 0 && in[f] > 0);
+      if (meet)
+        broken.add({std::to_string(n + 1), std::to_string(1 + *core::entry_of(scene, scene.feeds, k)),
+                    std::string(core::name_of(scene.feeds[k].at))},
+                   n);
+    }
   return broken;
 }
 
@@ -133,6 +148,10 @@ std::vector<core::Rule> key_rules() {
       {{"column.shape", "column.size", "column.cells", "feed.", "jet."},
        "{} number {} lies on cells that the round wall cuts off: move it inwards, or take smaller cells",
        on_closed_cells},
+      {{"discharge.from", "discharge.", "feed.", "column.", "species.name", "species.diameter", "dem.skin"},
+       "[[discharge]] number {} and [[feed]] number {} share a cell of the {} side: move them apart, or take smaller "
+       "cells",
+       discharge_beside_a_feed},
       {{"column.shape", "column.profile", "tfm.solids_wall"},
        "column.shape = \"{}\" and tfm.solids_wall = \"{}\" cannot be combined yet: the solids slip freely along round "
        "walls",

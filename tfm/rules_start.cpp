@@ -123,8 +123,9 @@ bool steps_are_implicit(const Scene& scene) {
   double inflow = fluid::Ramp(scene.inlet.superficial_velocity).greatest();
   for (const core::Jet& jet : scene.jets) inflow = std::max(inflow, fluid::Ramp(jet.superficial_velocity).greatest());
   for (const core::Feed& feed : scene.feeds)
-    if (feed.at == core::ColumnEnd::bottom)
-      inflow = std::max(inflow, fluid::Ramp(feed.superficial_velocity).greatest());
+    if (feed.at != core::ColumnFace::top) inflow = std::max(inflow, fluid::Ramp(feed.superficial_velocity).greatest());
+  for (const core::Discharge& discharge : scene.discharges)
+    inflow = std::max(inflow, fluid::Ramp(discharge.superficial_velocity).greatest());
   return scene.fluid.compressible() || (density && *density < relevance::lightest_liquid) || scene.column.closed ||
          inflow == 0;
 }

@@ -120,7 +120,7 @@ void continuity(const Constants& constants, const fluid::Boundaries& boundaries,
     else
       core::in_vectors<solids_flux<core::UpwindFace>>(grid, boundaries, phi, velocity, flux);
     if (first_order != nullptr) redo_upwind(grid, *first_order, phi, velocity, flux);
-    if (constants.openings.present()) constants.openings.cross(t, j, fields.solids, flux[1]);
+    if (constants.openings.present()) constants.openings.cross(t, j, fields.solids, flux);
     if (compressible) subtract(flux, fields.fluid.compression.flux);
     if (momentum != nullptr) momentum->carry_species(j, flux, fields);
     Field& rate = fields.solids.fraction_rate[j];
@@ -133,18 +133,23 @@ void continuity(const Constants& constants, const fluid::Boundaries& boundaries,
     constants.openings.set_rate_ghosts(t, j, fields.solids);
 }
 
-void fluid_flux_through_ends(const Constants& constants, double t, Fields& fields, core::Field& flux) {
+void fluid_flux_through_ends(const Constants& constants, const fluid::Boundaries& boundaries, double t, Fields& fields,
+                             core::FaceField& flux) {
   const auto on_ends = [&](auto&& body) {
-    for (const int side : {fluid::Openings::bottom, fluid::Openings::top})
-      fluid::for_each_boundary_row(constants.grid, 1, side, [&](Index begin, Index end) {
-        for (auto c = std::size_t(begin); c < std::size_t(end); ++c) body(c);
+    const auto see = [&](core::ColumnFace at) {
+      fluid::for_each_boundary_row(constants.grid, axis_of(at), side_of(at), [&](Index begin, Index end) {
+        for (auto c = std::size_t(begin); c < std::size_t(end); ++c) body(std::size_t(axis_of(at)), c);
       });
+    };
+    see(core::ColumnFace::bottom);
+    see(core::ColumnFace::top);
+    for (const core::ColumnFace at : boundaries.crossed()) see(at);
   };
-  core::Field& own = fields.fluid.compression.flux[1];
-  on_ends([&](std::size_t c) { own[c] = fields.fluid.flux[1][c]; });
+  core::FaceField& own = fields.fluid.compression.flux;
+  on_ends([&](std::size_t a, std::size_t c) { own[a][c] = fields.fluid.flux[a][c]; });
   for (std::size_t j = 0; j < constants.species() && constants.openings.present(); ++j) {
     constants.openings.cross(t, j, fields.solids, flux);
-    on_ends([&](std::size_t c) { own[c] -= flux[c]; });
+    on_ends([&](std::size_t a, std::size_t c) { own[a][c] -= flux[a][c]; });
   }
 }
 

@@ -29,9 +29,10 @@ enum class Scheme { upwind, limited };
 void continuity(const Constants&, const fluid::Boundaries&, Scheme, double t, Fields&, core::FaceField& flux,
                 const FaceList* first_order, ConservativeConvection* momentum);
 
-/// Of a compressible fluid: sets its own flux, J - sum F_j, on the faces of bottom and top alone, to the values that
-/// continuity() sets there. J, U_j and phi_j of the owned faces and cells are read. flux is work space.
-void fluid_flux_through_ends(const Constants&, double t, Fields&, core::Field& flux);
+/// Of a compressible fluid: sets its own flux, J - sum F_j, on the faces of the ends and of sides that are crossed
+/// alone, to the values that continuity() sets there. J, U_j and phi_j of the owned faces and cells are read. flux is
+/// work space.
+void fluid_flux_through_ends(const Constants&, const fluid::Boundaries&, double t, Fields&, core::FaceField& flux);
 
 /// Adds weight less buoyancy, (1 - rho_f/rho_j) g, along every axis that gravity has a component on.
 void add_gravity(const Constants&, const fluid::Boundaries&, Fields&);

@@ -20,10 +20,12 @@ StateLayout::StateLayout(const core::Grid& grid, int species, bool with_pressure
   for (int axis = 0; axis < grid.dimensions; ++axis) add(Kind::flux, -1, axis, core::owned_faces(grid, axis));
   for (int j = 0; j < species && with_temperature; ++j) add(Kind::temperature, j, -1, core::owned_cells(grid));
   for (const auto& passage : passages) {
-    Box row = core::owned_faces(grid, 1);
-    row.lo[1] = passage.side == fluid::Openings::bottom ? 0 : grid.cells[1];
-    row.hi[1] = row.lo[1] + (grid.ends(1, passage.side) ? 1 : 0);
-    add(Kind::passed, int(passage.species), 1, row);
+    const int axis = axis_of(passage.at), side = side_of(passage.at);
+    const auto a = std::size_t(axis);
+    Box row = core::owned_faces(grid, axis);
+    row.lo[a] = side == 0 ? 0 : grid.cells[a];
+    row.hi[a] = row.lo[a] + (grid.ends(axis, side) ? 1 : 0);
+    add(Kind::passed, int(passage.species), axis, row);
   }
   if (with_pressure) add(Kind::pressure, -1, -1, core::owned_cells(grid));
 }
@@ -72,7 +74,8 @@ std::string StateLayout::name_of(const Entry& entry, const std::vector<std::stri
     case Kind::temperature:
       return of_species("theta");
     case Kind::passed:
-      return fmt::format("{}.{}", of_species("passed"), entry.box.lo[1] == 0 ? "bottom" : "top");
+      return fmt::format("{}.{}", of_species("passed"),
+                         core::name_of(core::face_of(entry.axis, entry.box.lo[std::size_t(entry.axis)] == 0 ? 0 : 1)));
     case Kind::pressure:
       break;
   }

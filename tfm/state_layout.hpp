@@ -13,7 +13,7 @@
 namespace polybed::tfm {
 
 /// The unknowns: phi_j (cells), U_j and J (all owned faces), theta_j (cells) where it has an equation, what solids have
-/// crossed which faces of open ends, and p (cells) where the integrator carries it.
+/// crossed which faces of ends and sides, and p (cells) where the integrator carries it.
 class StateLayout {
  public:
   /// One field of the state: its kind, species (-1 for the mixture), axis (-1 on cells), and place.
@@ -25,7 +25,7 @@ class StateLayout {
   };
 
   StateLayout() = default;
-  /// \param passages  species and ends whose faces count what has crossed them
+  /// \param passages  species, and ends or sides, whose faces count what has crossed them
   StateLayout(const core::Grid& grid, int species, bool with_pressure, bool with_temperature = false,
               const std::vector<fluid::Openings::Passage>& passages = {});
 
@@ -70,7 +70,7 @@ template <class Solids, class Fluid>
     case Kind::temperature:
       return solids.temperature[std::size_t(entry.species)];
     case Kind::passed:
-      return solids.passed[std::size_t(entry.species)];
+      return solids.passed[std::size_t(entry.species)][std::size_t(entry.axis)];
     case Kind::pressure:
       break;
   }

@@ -42,6 +42,24 @@ constexpr std::array<std::string_view, 6> names(StartKind) {
 enum class ColumnEnd { bottom, top };
 constexpr std::array<std::string_view, 2> names(ColumnEnd) { return {"bottom", "top"}; }
 
+/// Where something enters or leaves: the ends, and the sides at x = 0, x = width, z = 0 and z = depth.
+enum class ColumnFace { bottom, top, left, right, front, back };
+constexpr std::array<std::string_view, 6> names(ColumnFace) {
+  return {"bottom", "top", "left", "right", "front", "back"};
+}
+/// The axis across a face: 0 = x (width), 1 = y (height), 2 = z (depth).
+constexpr int axis_of(ColumnFace face) { return face <= ColumnFace::top ? 1 : face <= ColumnFace::right ? 0 : 2; }
+/// The low (0) or the high (1) end of that axis.
+constexpr int side_of(ColumnFace face) { return static_cast<int>(face) % 2; }
+constexpr bool is_side(ColumnFace face) { return face > ColumnFace::top; }
+constexpr ColumnFace face_of(int axis, int side) { return static_cast<ColumnFace>((axis == 1 ? 0 : axis + 2) + side); }
+/// The axis that coordinate n of a corner on a face is along, in the order width, depth, height.
+constexpr int axis_along(ColumnFace face, int dimensions, std::size_t n) {
+  if (axis_of(face) == 1) return n == 0 ? 0 : 2;
+  if (axis_of(face) == 0) return n == 0 && dimensions == 3 ? 2 : 1;
+  return n == 0 ? 0 : 1;
+}
+
 /// What a scene is run for: means, or how they come about.
 enum class Purpose { steady, transient };
 constexpr std::array<std::string_view, 2> names(Purpose) { return {"steady", "transient"}; }

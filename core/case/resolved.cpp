@@ -66,9 +66,9 @@ std::string entries(const Scene& scene, const Table& table, std::size_t index) {
 std::string resolved_case(const Scene& scene) {
   const Scene untouched;
   std::string out;
-  for (std::string_view name : {"",    "column", "fluid",     "species",   "bed",     "layer",       "inlet",
-                                "jet", "feed",   "wall",      "effects",   "chooser", "run",         "output",
-                                "tfm", "dem",    "inversion", "calibrate", "resolve", "contact_pair"}) {
+  for (std::string_view name : {"",       "column", "fluid",     "species",   "bed",       "layer",   "inlet",
+                                "jet",    "feed",   "discharge", "wall",      "effects",   "chooser", "run",
+                                "output", "tfm",    "dem",       "inversion", "calibrate", "resolve", "contact_pair"}) {
     if (name == "effects") {
       out += "\n[effects]\n";
       out += fmt::format("{} = \"none\"\n", other_roles);

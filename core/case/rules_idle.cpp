@@ -55,6 +55,7 @@ std::vector<Rule> in_a_closed_column() {
        {"jet.superficial_velocity", "[[jet]]", has_jets},
        {"inlet.at", "inlet.at = \"top\"", is_given_at_the_top},
        {"feed.species", "[[feed]]", [](const Scene& s) { return !s.feeds.empty(); }},
+       {"discharge.at", "[[discharge]]", [](const Scene& s) { return !s.discharges.empty(); }},
        {"column.outlet", "column.outlet = \"open\"", [](const Scene& s) { return s.column.outlet == Outlet::open; }}},
       [](const Scene& scene) { return scene.column.closed; }, ": column.closed = true", {"column.closed"});
 }

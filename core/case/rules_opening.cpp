@@ -1,8 +1,10 @@
-// What parts of the cross-section require: jets, feeds, layers, and an opening that particles fall through.
+// What parts of the column's ends and sides require: jets, feeds, discharges; layers, and an opening that particles
+// fall through.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
+#include <type_traits>
 
 #include "core/case/case_rules.hpp"
 #include "core/case/resolve.hpp"
@@ -12,13 +14,27 @@ namespace polybed::core {
 
 namespace {
 
-/// Coordinates of a corner on the bottom.
+/// Coordinates of a corner.
 std::size_t corner_size(const Scene& scene) { return scene.column.given_size.size() == 3 ? 2 : 1; }
 
-/// The whole end, of a feed; the whole cross-section, of a layer.
-bool is_all(const Feed& feed) { return feed.from.empty() && feed.to.empty(); }
-bool is_all(const Layer& layer) { return layer.from.empty() && layer.to.empty(); }
-bool is_all(const Jet&) { return false; }
+/// A whole end or side, or the whole cross-section, of a layer.
+template <class Part>
+bool is_all(const Part& part) {
+  return !std::is_same_v<Part, Jet> && part.from.empty() && part.to.empty();
+}
+
+/// Where corners lie: those of a layer are as on the bottom.
+template <class Part>
+ColumnFace place_of(const Part& part) {
+  if constexpr (requires { part.at; }) return part.at;
+  return ColumnFace::bottom;
+}
+
+template <class Part>
+std::string name_of_place(const Part& part) {
+  if (std::is_same_v<Part, Layer>) return "in the column";
+  return fmt::format("on the {}{}", name_of(place_of(part)), is_side(place_of(part)) ? " side" : "");
+}
 
 template <class Part>
 Broken corners_miscounted(const Scene& scene, const std::vector<Part>& parts) {
@@ -34,34 +50,52 @@ Broken corners_miscounted(const Scene& scene, const std::vector<Part>& parts) {
 template <class Part>
 Broken beside_the_end(const Scene& scene, const std::vector<Part>& parts) {
   Broken broken;
-  const std::vector<double>& given = scene.column.given_size;  // width, then the depth if there are corners in it
-  const std::array<double, 2> size{given[0], given[1]};
+  const std::vector<double>& given = scene.column.given_size;  // width, then the depth if there is one, and height
+  const std::array<double, 3> size{given.front(), given.back(), given[1]};
   for (std::size_t k = 0; k < parts.size(); ++k) {
     const Part& part = parts[k];
-    for (std::size_t d = 0; d < part.from.size(); ++d)
-      if (!(part.from[d] < part.to[d] && part.to[d] <= size[d] * (1 + 1e-12))) {
-        broken.add(
-            {fmt::format("{:.4g}", part.from[d]), fmt::format("{:.4g}", part.to[d]), fmt::format("{:.4g}", size[d])},
-            entry_of(scene, parts, k));
-        break;
-      }
+    for (std::size_t d = 0; d < part.from.size(); ++d) {
+      const double most = size[std::size_t(axis_along(place_of(part), int(given.size()), d))];
+      if (part.from[d] < part.to[d] && part.to[d] <= most * (1 + 1e-12)) continue;
+      broken.add({fmt::format("{:.4g}", part.from[d]), fmt::format("{:.4g}", part.to[d]), name_of_place(part),
+                  fmt::format("{:.4g}", most)},
+                 entry_of(scene, parts, k));
+      break;
+    }
   }
   return broken;
 }
 
-/// True if two parts of an end have nothing in common; a part without corners is all of it.
-template <class Part>
-bool apart(const Part& a, const Part& b) {
+/// True if two parts have nothing in common; a part without corners is all of its end or side.
+template <class Part, class Other>
+bool apart(const Part& a, const Other& b) {
+  if (a.at != b.at) return true;
   for (std::size_t d = 0; d < std::min(a.from.size(), b.from.size()); ++d)
     if (a.to[d] <= b.from[d] || b.to[d] <= a.from[d]) return true;
   return false;
 }
 
-Broken jets_overlap(const Scene& scene) {
+template <class Part>
+Broken overlap_each_other(const std::vector<Part>& parts) {
   Broken broken;
-  for (std::size_t a = 0; a < scene.jets.size(); ++a)
+  for (std::size_t a = 0; a < parts.size(); ++a)
     for (std::size_t b = 0; b < a; ++b)
-      if (!apart(scene.jets[a], scene.jets[b])) broken.add({std::to_string(b + 1), std::to_string(a + 1)}, a);
+      if (!apart(parts[a], parts[b])) broken.add({std::to_string(b + 1), std::to_string(a + 1)}, a);
+  return broken;
+}
+
+/// What enters where a discharge takes it.
+Broken discharges_overlap_inflows(const Scene& scene) {
+  Broken broken;
+  for (std::size_t n = 0; n < scene.discharges.size(); ++n) {
+    const auto see = [&](const auto& parts, const char* table) {
+      for (std::size_t k = 0; k < parts.size(); ++k)
+        if (!apart(scene.discharges[n], parts[k]))
+          broken.add({std::to_string(n + 1), table, std::to_string(1 + *entry_of(scene, parts, k))}, n);
+    };
+    see(scene.jets, "jet");
+    see(scene.feeds, "feed");
+  }
   return broken;
 }
 
@@ -70,7 +104,7 @@ Broken feeds_overlap(const Scene& scene) {
   for (std::size_t a = 0; a < scene.feeds.size(); ++a)
     for (std::size_t b = 0; b < a; ++b) {
       const Feed &one = scene.feeds[a], &other = scene.feeds[b];
-      if (one.species == other.species && one.at == other.at && !apart(one, other))
+      if (one.species == other.species && !apart(one, other))
         broken.add({one.species, std::to_string(1 + *entry_of(scene, scene.feeds, b)),
                     std::to_string(1 + *entry_of(scene, scene.feeds, a))},
                    entry_of(scene, scene.feeds, a));
@@ -102,15 +136,67 @@ Broken feeds_denser_than_the_bed(const Scene& scene) {
   return broken;
 }
 
-std::vector<Rule> jet_rules() {
-  return {{{"jet.from", "jet.to", "column.size"},
-           "jet.from and jet.to have {} and {} numbers: {} here",
-           [](const Scene& scene) { return corners_miscounted(scene, scene.jets); },
+/// Of jets, feeds or discharges: where they lie.
+template <class Part>
+std::vector<Rule> place_rules(const std::string& table, std::vector<Part> Scene::*parts) {
+  const std::string from = table + ".from", to = table + ".to", at = table + ".at";
+  using Test = bool (*)(const Column&, ColumnFace);
+  const auto rule = [&](const std::string& key, const std::string& message, Test wrong) {
+    return Rule{{at, key}, at + " = \"{}\"" + message, [parts, wrong](const Scene& scene) {
+                  Broken broken;
+                  for (std::size_t n = 0; n < (scene.*parts).size(); ++n)
+                    if (const ColumnFace face = (scene.*parts)[n].at; is_side(face) && wrong(scene.column, face))
+                      broken.add({std::string(name_of(face))}, entry_of(scene, scene.*parts, n));
+                  return broken;
+                }};
+  };
+  return {{{from, to, "column.size"},
+           from + " and " + to + " have {} and {} numbers: {} here",
+           [parts](const Scene& scene) { return corners_miscounted(scene, scene.*parts); },
            true},
-          {{"jet.from", "jet.to", "column.size"},
-           "a jet from {} to {} m does not lie on the bottom, 0 to {} m",
-           [](const Scene& scene) { return beside_the_end(scene, scene.jets); }},
-          {{"jet.from", "jet.to", "column.size"}, "two jets overlap: [[jet]] number {} and {}", jets_overlap}};
+          {{from, to, at, "column.size"},
+           "a " + table + " from {} to {} m does not lie {}, 0 to {} m",
+           [parts](const Scene& scene) { return beside_the_end(scene, scene.*parts); }},
+          rule("column.size", ": a column of two dimensions has two sides, left and right",
+               [](const Column& column, ColumnFace face) { return column.dimensions == 2 && axis_of(face) == 2; }),
+          rule("column.sides", " and column.sides = \"periodic\" contradict each other: joined sides have no wall",
+               [](const Column& column, ColumnFace) { return column.sides == Boundary::periodic; }),
+          rule("column.shape", " needs column.shape = \"box\": a round column has no such side yet",
+               [](const Column& column, ColumnFace) { return column.shape != ColumnShape::box; })};
+}
+
+std::vector<Rule> jet_rules() {
+  std::vector<Rule> rules = place_rules("jet", &Scene::jets);
+  rules.push_back({{"jet.at"}, "jet.at = \"top\": a jet enters through the bottom or a side", [](const Scene& scene) {
+                     Broken broken;
+                     for (std::size_t n = 0; n < scene.jets.size(); ++n)
+                       if (scene.jets[n].at == ColumnFace::top) broken.add({}, n);
+                     return broken;
+                   }});
+  rules.push_back({{"jet.from", "jet.to", "jet.at", "column.size"},
+                   "two jets overlap: [[jet]] number {} and {}",
+                   [](const Scene& scene) { return overlap_each_other(scene.jets); }});
+  return rules;
+}
+
+std::vector<Rule> discharge_rules() {
+  std::vector<Rule> rules = place_rules("discharge", &Scene::discharges);
+  rules.push_back({{"discharge.at"},
+                   "discharge.at = \"{}\": a discharge lies in a side, left, right, front or back",
+                   [](const Scene& scene) {
+                     Broken broken;
+                     for (std::size_t n = 0; n < scene.discharges.size(); ++n)
+                       if (const ColumnFace at = scene.discharges[n].at; !is_side(at))
+                         broken.add({std::string(name_of(at))}, n);
+                     return broken;
+                   }});
+  rules.push_back({{"discharge.from", "discharge.to", "discharge.at", "column.size"},
+                   "two discharges overlap: [[discharge]] number {} and {}",
+                   [](const Scene& scene) { return overlap_each_other(scene.discharges); }});
+  rules.push_back({{"discharge.from", "discharge.to", "discharge.at", "jet.", "feed.", "column.size"},
+                   "[[discharge]] number {} overlaps [[{}]] number {}",
+                   discharges_overlap_inflows});
+  return rules;
 }
 
 std::vector<Rule> layer_corner_rules() {
@@ -119,27 +205,24 @@ std::vector<Rule> layer_corner_rules() {
            [](const Scene& scene) { return corners_miscounted(scene, scene.layers); },
            true},
           {{"layer.from", "layer.to", "column.size"},
-           "a layer from {} to {} m does not lie in the column, 0 to {} m",
+           "a layer from {} to {} m does not lie {}, 0 to {} m",
            [](const Scene& scene) { return beside_the_end(scene, scene.layers); },
            true}};
 }
 
 std::vector<Rule> feed_rules() {
-  return {{{"feed.from", "feed.to", "column.size"},
-           "feed.from and feed.to have {} and {} numbers: {} here",
-           [](const Scene& scene) { return corners_miscounted(scene, scene.feeds); },
-           true},
-          {{"feed.from", "feed.to", "column.size"},
-           "a feed from {} to {} m does not lie on the bottom, 0 to {} m",
-           [](const Scene& scene) { return beside_the_end(scene, scene.feeds); }},
-          {{"feed.species", "species.name"}, "feed.species = \"{}\": no such species", feeds_of_no_species},
-          {{"feed.superficial_velocity", "feed.velocity", "bed.solids_fraction"},
-           "a feed of {} of {} m/s at a velocity of {} m/s would be denser than the settled bed: raise feed.velocity "
-           "above {} m/s",
-           feeds_denser_than_the_bed},
-          {{"feed.from", "feed.to", "feed.species", "feed.at", "column.size"},
-           "two feeds of {} overlap: [[feed]] number {} and {}",
-           feeds_overlap}};
+  std::vector<Rule> rules = place_rules("feed", &Scene::feeds);
+  const std::vector<Rule> own{
+      {{"feed.species", "species.name"}, "feed.species = \"{}\": no such species", feeds_of_no_species},
+      {{"feed.superficial_velocity", "feed.velocity", "bed.solids_fraction"},
+       "a feed of {} of {} m/s at a velocity of {} m/s would be denser than the settled bed: raise feed.velocity "
+       "above {} m/s",
+       feeds_denser_than_the_bed},
+      {{"feed.from", "feed.to", "feed.species", "feed.at", "column.size"},
+       "two feeds of {} overlap: [[feed]] number {} and {}",
+       feeds_overlap}};
+  rules.insert(rules.end(), own.begin(), own.end());
+  return rules;
 }
 
 /// Of the opening that particles fall through. \param broken  words after the width of the opening
@@ -187,7 +270,7 @@ std::vector<Rule> bottom_rules() {
 
 std::vector<Rule> opening_rules() {
   std::vector<Rule> rules;
-  for (const auto& part : {jet_rules(), layer_corner_rules(), feed_rules(), bottom_rules()})
+  for (const auto& part : {jet_rules(), layer_corner_rules(), feed_rules(), discharge_rules(), bottom_rules()})
     rules.insert(rules.end(), part.begin(), part.end());
   return rules;
 }

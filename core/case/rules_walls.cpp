@@ -95,14 +95,15 @@ Broken layers_with_corners(const Scene& scene) {
   return broken;
 }
 
-double diameter_at(const Column& column, ColumnEnd end) {
+double diameter_at(const Column& column, ColumnFace end) {
   if (!column.is_tapered()) return column.size[0];
-  return (end == ColumnEnd::top ? column.profile.back() : column.profile.front()).second;
+  return (end == ColumnFace::top ? column.profile.back() : column.profile.front()).second;
 }
 
 /// Whether a part of the cross-section, a feed's or a jet's, has a corner beyond a round column.
 template <class Part>
-bool is_beyond_the_circle(const Column& column, const Part& part, ColumnEnd end) {
+bool is_beyond_the_circle(const Column& column, const Part& part, ColumnFace end) {
+  if (is_side(end)) return false;  // which another rule refuses
   const double within = 0.5 * diameter_at(column, end) * (1 + 1e-12), centre = 0.5 * column.size[0];
   if (column.around_axis()) return column.is_tapered() && !part.to.empty() && part.to[0] > within;
   if (!column.is_round() || part.from.size() != 2 || part.to.size() != 2) return false;
@@ -124,8 +125,8 @@ Broken feeds_beyond_the_circle(const Scene& scene) {
 Broken jets_beyond_the_circle(const Scene& scene) {
   Broken broken;
   for (std::size_t n = 0; n < scene.jets.size(); ++n)
-    if (is_beyond_the_circle(scene.column, scene.jets[n], ColumnEnd::bottom))
-      broken.add({std::to_string(n + 1), fmt::format("{:.4g}", diameter_at(scene.column, ColumnEnd::bottom))}, n);
+    if (is_beyond_the_circle(scene.column, scene.jets[n], ColumnFace::bottom))
+      broken.add({std::to_string(n + 1), fmt::format("{:.4g}", diameter_at(scene.column, ColumnFace::bottom))}, n);
   return broken;
 }
 

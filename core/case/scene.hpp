@@ -138,10 +138,11 @@ struct Inlet {
   ColumnEnd at = ColumnEnd::bottom;  ///< top: the flow is given there too, instead of the pressure
 };
 
-/// A part of the bottom with a velocity of its own.
+/// A part of the bottom with a velocity of its own, or a part of a side through which fluid enters.
 struct Jet {
-  std::vector<double> from, to;                                 ///< its corners on the bottom, m: x, or x and z
+  std::vector<double> from, to;  ///< its corners, m: see axis_along; on the bottom x, or x and z
   std::vector<std::pair<double, double>> superficial_velocity;  ///< as of the inlet, over the jet's own area
+  ColumnFace at = ColumnFace::bottom;                           ///< never the top
 };
 
 /// A wall inside the column that particles meet from either side: flat across the whole depth, or round about the
@@ -156,14 +157,21 @@ struct InnerWall {
 /// The walls of a round column where it is narrower than at its widest, as cones.
 [[nodiscard]] std::vector<InnerWall> walls_of_taper(const Column& column);
 
-/// Solids of one species that are fed through the bottom or the top, everywhere or in a part of it.
+/// Solids of one species that are fed through an end or a side, everywhere or in a part of it.
 struct Feed {
   std::string species;
-  ColumnEnd at = ColumnEnd::bottom;
+  ColumnFace at = ColumnFace::bottom;
   std::vector<std::pair<double, double>>
       superficial_velocity;      ///< solids volume per area and time, m/s, into the column
   double velocity = 0;           ///< of the particles as they enter, m/s
-  std::vector<double> from, to;  ///< as of a jet; empty: the whole end
+  std::vector<double> from, to;  ///< as of a jet; empty: the whole end or side
+};
+
+/// A part of a side through which fluid and solids leave as they are next to it.
+struct Discharge {
+  ColumnFace at = ColumnFace::right;
+  std::vector<double> from, to;                                 ///< as of a feed
+  std::vector<std::pair<double, double>> superficial_velocity;  ///< of the mixture, out of the column, m/s
 };
 
 /// How effects that a case gives as "auto" are chosen, and how what is left out is watched.
@@ -314,6 +322,7 @@ struct Scene {
   Inlet inlet;
   std::vector<Jet> jets;
   std::vector<Feed> feeds;
+  std::vector<Discharge> discharges;
   std::vector<InnerWall> walls;
   std::map<std::string, std::string> effects;  ///< role -> law; a role left out is off
   Chooser chooser;

@@ -200,6 +200,6 @@ Table table(std::string_view name, std::vector<S> Scene::*place, std::initialize
 [[nodiscard]] std::vector<Table> bed_tables();    ///< title, column, fluid, species, bed, layer, inlet
 [[nodiscard]] std::vector<Table> run_tables();    ///< chooser, run, output
 [[nodiscard]] std::vector<Table> model_tables();  ///< tfm, dem, calibrate, resolve
-[[nodiscard]] std::vector<Table> part_tables();   ///< jet, feed, contact_pair
+[[nodiscard]] std::vector<Table> part_tables();   ///< jet, feed, discharge, wall, contact_pair
 
 }  // namespace polybed::core::schema

@@ -132,6 +132,7 @@ std::optional<std::size_t> entry_of(const Scene& scene, const std::vector<Specie
   return entries_before(scene, species.size(), n, [&](std::size_t k) { return species[k].name; });
 }
 std::optional<std::size_t> entry_of(const Scene&, const std::vector<Jet>&, std::size_t n) { return n; }
+std::optional<std::size_t> entry_of(const Scene&, const std::vector<Discharge>&, std::size_t n) { return n; }
 std::optional<std::size_t> entry_of(const Scene&, const std::vector<Layer>&, std::size_t n) { return n; }
 std::optional<std::size_t> entry_of(const Scene& scene, const std::vector<Feed>& feeds, std::size_t n) {
   return entries_before(scene, feeds.size(), n, [&](std::size_t k) { return feeds[k].species; });

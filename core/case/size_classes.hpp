@@ -21,13 +21,15 @@ using ClassRule = std::function<std::vector<std::pair<double, double>>(const Siz
 /// each species.
 void expand_size_classes(Scene& scene, const ClassRule& rule);
 
-/// The entry in the case that the n-th species, layer, jet, feed or contact pair of a scene comes from; none of a pair
-/// where size classes stand for species.
+/// The entry in the case that the n-th species, layer, jet, feed, discharge or contact pair of a scene comes from; none
+/// of a pair where size classes stand for species.
 [[nodiscard]] std::optional<std::size_t> entry_of(const Scene& scene, const std::vector<Species>& species,
                                                   std::size_t n);
 [[nodiscard]] std::optional<std::size_t> entry_of(const Scene& scene, const std::vector<Jet>& jets, std::size_t n);
 [[nodiscard]] std::optional<std::size_t> entry_of(const Scene& scene, const std::vector<Layer>& layers, std::size_t n);
 [[nodiscard]] std::optional<std::size_t> entry_of(const Scene& scene, const std::vector<Feed>& feeds, std::size_t n);
+[[nodiscard]] std::optional<std::size_t> entry_of(const Scene& scene, const std::vector<Discharge>& discharges,
+                                                  std::size_t n);
 [[nodiscard]] std::optional<std::size_t> entry_of(const Scene& scene, const std::vector<ContactPair>& pairs,
                                                   std::size_t n);
 

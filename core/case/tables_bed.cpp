@@ -180,13 +180,16 @@ Table jet_table() {
   return table(
       "jet", &Scene::jets,
       {
+          key(&Jet::at, "at",
+              help("bottom: a part of it with a velocity of its own; or a part of a side, from x = 0 the left one, in "
+                   "three dimensions from depth 0 the front one")),
           key(&Jet::from, "from", dimension::length, range(0, 1e3), Mark::required,
-              help("low corner of a part of the bottom with a velocity of its own: [x], or [x, z] (width, "
-                   "depth) in three dimensions")),
+              help("low corner: of the bottom [x], or [x, z] (width, depth) in three dimensions; of a side its height "
+                   "[y], or in three dimensions [z, y] left and right, [x, y] front and back")),
           key(&Jet::to, "to", dimension::length, range(0, 1e3), Mark::required, help("high corner")),
           key(&Jet::superficial_velocity, "superficial_velocity", dimension::velocity, range(-1e3, 1e3), Mark::required,
-              help("over the jet's own area, in place of inlet.superficial_velocity; a velocity or a table as "
-                   "there")),
+              help("over the jet's own area, into the column, on the bottom in place of inlet.superficial_velocity; a "
+                   "velocity or a table as there")),
       });
 }
 
@@ -196,7 +199,7 @@ Table feed_table() {
       {
           key(&Feed::species, "species", Mark::required,
               help("name of the species that is fed; of one with a distribution: all classes, by their shares")),
-          key(&Feed::at, "at", help("end of the column")),
+          key(&Feed::at, "at", help("end or side of the column; a side for the TFM only")),
           key(&Feed::superficial_velocity, "superficial_velocity", dimension::velocity, range(0, 1e3), Mark::required,
               help("volume of solids per area of the feed and time, into the column, besides the fluid of the "
                    "inlet; a velocity or a table as there")),
@@ -204,8 +207,25 @@ Table feed_table() {
               help("of the particles as they enter; superficial_velocity over it is their volume fraction, in polybed "
                    "dem at most 0.35")),
           key(&Feed::from, "from", dimension::length, range(0, 1e3),
-              help("low corner of the part of the end, as of a jet; default: the whole end")),
+              help("low corner of the part of the end or side, as of a jet; default: all of it")),
           key(&Feed::to, "to", dimension::length, range(0, 1e3), help("high corner")),
+      });
+}
+
+Table discharge_table() {
+  return table(
+      "discharge", &Scene::discharges,
+      {
+          key(&Discharge::at, "at", Mark::required,
+              help("side of the column through which fluid and solids leave together, as they are in the cells next to "
+                   "it; for the TFM only")),
+          key(&Discharge::superficial_velocity, "superficial_velocity", dimension::velocity, range(0, 1e3),
+              Mark::required,
+              help("volume of the mixture per area of the discharge and time, out of the column; a velocity or a table "
+                   "as of the inlet. Where more enters, the rest leaves at the top, also with inlet.at = \"top\"")),
+          key(&Discharge::from, "from", dimension::length, range(0, 1e3),
+              help("low corner of the part of the side, as of a jet; default: all of it")),
+          key(&Discharge::to, "to", dimension::length, range(0, 1e3), help("high corner")),
       });
 }
 
@@ -243,6 +263,8 @@ std::vector<Table> bed_tables() {
   return {title_table(), column_table(), fluid_table(), species_table(), bed_table(), layer_table(), inlet_table()};
 }
 
-std::vector<Table> part_tables() { return {jet_table(), feed_table(), wall_table(), contact_pair_table()}; }
+std::vector<Table> part_tables() {
+  return {jet_table(), feed_table(), discharge_table(), wall_table(), contact_pair_table()};
+}
 
 }  // namespace polybed::core::schema

@@ -32,6 +32,7 @@ void join_times(Scene& scene) {
   std::vector<Table*> tables{&scene.inlet.superficial_velocity};
   for (Jet& jet : scene.jets) tables.push_back(&jet.superficial_velocity);
   for (Feed& feed : scene.feeds) tables.push_back(&feed.superficial_velocity);
+  for (Discharge& discharge : scene.discharges) tables.push_back(&discharge.superficial_velocity);
   std::vector<double> times;
   for (const Table* table : tables)
     for (const auto& point : *table) times.push_back(point.first);

@@ -36,23 +36,24 @@ double value_at(const std::vector<std::pair<double, double>>& points, double tim
   return before->second + share * (after->second - before->second);
 }
 
-/// Share of the bottom that a jet takes.
+/// Area of a jet over the bottom's.
 double share_of_bottom(const core::Column& column, const core::Jet& jet) {
   if (jet.from.empty() || jet.to.empty()) return 1;
   if (column.around_axis())
     return std::numbers::pi * (jet.to[0] * jet.to[0] - jet.from[0] * jet.from[0]) / column.cross_section();
   double area = jet.to[0] - jet.from[0];
   const bool wide = jet.from.size() < 2 || jet.to.size() < 2;
-  area *= wide ? column.size[2] : jet.to[1] - jet.from[1];
+  area *= wide ? column.size[2] : jet.to[1] - jet.from[1];  // of two dimensions, on the bottom and in a side
   return area / column.cross_section();
 }
 
-/// Mean over the bottom: jets have a velocity of their own on their part of it.
+/// All that flows in over the bottom's area: jets have a velocity of their own on their part of it, or come in beside.
 double velocity_at_end(const core::Scene& scene) {
   const double inlet = value_at(scene.inlet.superficial_velocity, scene.run.until);
   double mean = inlet;
   for (const core::Jet& jet : scene.jets)
-    mean += share_of_bottom(scene.column, jet) * (value_at(jet.superficial_velocity, scene.run.until) - inlet);
+    mean += share_of_bottom(scene.column, jet) *
+            (value_at(jet.superficial_velocity, scene.run.until) - (is_side(jet.at) ? 0 : inlet));
   return mean;
 }
 

@@ -5,6 +5,7 @@ import re
 import program
 from feed_rules import FEEDS, feeds
 from layer_rules import COUNTED, LAYERS
+from port_rules import PORTS, PORTS_FOR_ONE_MODEL
 from resolve_rules import RESOLVED
 from wall_rules import ROUND, ROUND_FOR_ONE_MODEL, ROUND_OF_MODELS, WALLS
 from program import DONE, WRONG_CASE, Scratch, run, strict_json
@@ -84,7 +85,7 @@ KEYS = {
     'dem.shear_rate = {} 1/s needs column.ends = "periodic"': [SHEARED],
     "dem.shear_rate = {} 1/s needs column.gravity = 0, it is {} m/s2": [SHEARED],
     "jet.from and jet.to have {} and {} numbers: {} here": [jets(([0.01, 0], [0.02]))],
-    "a jet from {} to {} m does not lie on the bottom, 0 to {} m": [jets(([0.01], [0.07]))],
+    "a jet from {} to {} m does not lie {}, 0 to {} m": [jets(([0.01], [0.07]))],
     "two jets overlap: [[jet]] number {} and {}": [jets(([0.01], [0.03]), ([0.02], [0.04]))],
     **WALLS,
     'dem.opening = {} m: a fluid enters there, and particles leave through the top alone (column.outlet = "open"); set fluid.name = "none"': [
@@ -112,6 +113,7 @@ KEYS = {
     "the bed at its start is {} m high, the column {} m: enlarge column.size": ["bed.static_height=0.3"],
     **LAYERS,
     **FEEDS,
+    **PORTS,
     'bed.start = "{}": no such file in the working directory or beside the case file': [*COUNTED, "bed.start=list:none.csv"],
     'inlet.at = "top" and column.outlet = "open" contradict each other: what spreads the fluid holds the solids back': [
         AT_TOP[1], "column.outlet=open"],
@@ -161,6 +163,7 @@ TABLE = program.ROOT / "cases/small-binary/table.h5"
 CONTACT = "effects.contact: particles need a law of contact: hertz_mindlin, hertz or linear"
 ONE_MODEL = {
     **ROUND_FOR_ONE_MODEL,
+    **PORTS_FOR_ONE_MODEL,
     "column.gravity_direction other than down in a round column" + TFM_CANNOT: [
         *NO_FLUID, "column.gravity_direction=[1, 0, -1]", "bed.static_height=0.002", *ROUND],
     CONTACT: ["effects.contact=none"],  # a case that is not meant for particles has no note of it

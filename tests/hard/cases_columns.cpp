@@ -51,7 +51,7 @@ void near_flooding(Trial& trial) {
   scene.inlet.superficial_velocity = {{0, flux}, {6.02, flux}, {6.02, 1.2 * falling}, {7.02, 1.2 * falling}, {7.02, 0}};
   const double below = 3 * 0.95 * flooding, beyond = 3 * 1.3 * flooding;
   scene.feeds.push_back({"solid",
-                         core::ColumnEnd::top,
+                         core::ColumnFace::top,
                          {{0, below}, {2.02, below}, {2.02, beyond}, {4.02, beyond}, {4.02, below}},
                          falling,
                          {0.004},

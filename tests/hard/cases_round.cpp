@@ -76,7 +76,7 @@ void feed_into_a_packed_bed(Trial& trial) {
   scene.column.outlet = core::Outlet::open;
   scene.bed.static_height = 0.04;
   scene.inlet.superficial_velocity = {{0.0, 0.002}};
-  scene.feeds.push_back({"solid", core::ColumnEnd::bottom, {{0.0, 0.01}}, 0.05, {0.002, 0.018}, {0.012, 0.027}});
+  scene.feeds.push_back({"solid", core::ColumnFace::bottom, {{0.0, 0.01}}, 0.05, {0.002, 0.018}, {0.012, 0.027}});
   const auto run = trial.begin(scene);
   trial.advance(*run, 0.5);
   const double fed = 0.01 * 0.010 * 0.009 * 0.5;  // area and time

@@ -26,6 +26,9 @@ ONE = '[[species]]\nname = "a"\ndiameter = "{}"\ndensity = {}\n'
 POWDER, SAND, FINE = (ONE.format(*of) for of in (("80 um", 1500), ("0.5 mm", 2500), ("0.3 mm", 2500)))
 TWO = FINE + '[[species]]\nname = "b"\ndiameter = "0.5 mm"\ndensity = 1600\n'
 FEED = '[[feed]]\nspecies = "a"\nat = "top"\nsuperficial_velocity = "1 mm/s"\nvelocity = "20 mm/s"\nfrom = ["2 mm"]\nto = ["6 mm"]\n'
+PORTS = (FEED.replace('"top"', '"left"').replace("2 mm", "6 mm", 1).replace('to = ["6 mm"]', 'to = ["14 mm"]')
+         + '[[jet]]\nat = "right"\nfrom = ["4 mm"]\nto = ["16 mm"]\nsuperficial_velocity = "20 mm/s"\n'
+         '[[discharge]]\nat = "right"\nfrom = ["18 mm"]\nto = ["30 mm"]\nsuperficial_velocity = "8 mm/s"\n')
 
 
 # A run has 400 rows of the history unless told otherwise, for each of which ranks wait for each other: more than for its steps.
@@ -56,6 +59,7 @@ SCENES = {
     "open water, packed": scene([6, 24], ["12 mm", "48 mm"], "water", SAND, "20 mm", "0.1 s", inlet="2 mm/s"),
     "water with a feed": scene([4, 20], ["8 mm", "40 mm"], "water", FINE, "6 mm", "0.1 s", inlet="5 mm/s", more=FEED,
                                outlet='outlet = "open"\n'),
+    "water with ports in its sides": scene([4, 20], ["8 mm", "40 mm"], "water", FINE, "20 mm", "0.1 s", inlet="5 mm/s", more=PORTS),
     "closed water, wide": scene([72, 16], ["72 mm", "32 mm"], "water", SAND, "20 mm", "20 ms"),
     "closed gas in 3-D": scene([4, 4, 16], ["8 mm", "8 mm", "32 mm"], "air", POWDER, "10 mm", "0.02 s"),
 }

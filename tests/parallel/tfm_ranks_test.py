@@ -138,6 +138,18 @@ class Ranks(Scratch):
             if name.startswith(("in_", "out_")):
                 self.assertLessEqual(abs(one[name][-1] - other[name][-1]), ROUND_OFF * max(abs(one[name][-1]), 1e-6), name)
 
+    def test_what_crosses_the_sides_is_the_same(self):
+        """Ports across every cut, and a restart on other ranks in the middle."""
+        ports = ('jet=[{at="left", from=[0.02], to=[0.1], superficial_velocity=0.1}]',
+                 'feed=[{species="fine", at="left", from=[0.2], to=[0.4], superficial_velocity=2e-3, velocity=0.05}]',
+                 'discharge=[{at="right", from=[0.03], to=[0.5], superficial_velocity=[[0, 0], [0.03, 0.02]]}]')
+        words = [*FLAT, *FIXED, *(word for port in ports for word in ("--set", port))]
+        self.check_equal(*words)
+        cut = self.folder / "cut"
+        self.on(RANKS[-1], CASE, *words, "--until", "0.02", "-o", cut)
+        self.on(1, CASE, *words, "--resume", "-o", cut)
+        self.assertEqual(self.largest_difference(self.folder / "on1", cut), 0)
+
     def test_momentum_of_second_order_is_the_same(self):
         """Fluxes of the solids are taken from neighbours across every cut, corners included."""
         self.check_equal(*FLAT, *FIXED, "--set", 'tfm.momentum="conservative_limited"', on=RANKS[-1:])

@@ -150,8 +150,8 @@ core::Scene crossed_ends(const char* law, const char* integrator) {
   scene.tfm.max_packing = 0.64;
   const double velocity = gas ? 1.5 : 0.1;
   scene.inlet.superficial_velocity = {{0.0, velocity}};
-  scene.feeds.push_back({"solid", core::ColumnEnd::bottom, {{0.0, 0.02 * velocity}}, velocity, {0.0}, {0.01}});
-  scene.feeds.push_back({"solid", core::ColumnEnd::top, {{0.0, 0.01 * velocity}}, velocity, {0.015}, {0.02}});
+  scene.feeds.push_back({"solid", core::ColumnFace::bottom, {{0.0, 0.02 * velocity}}, velocity, {0.0}, {0.01}});
+  scene.feeds.push_back({"solid", core::ColumnFace::top, {{0.0, 0.01 * velocity}}, velocity, {0.015}, {0.02}});
   scene.effects = {{"drag", "gidaspow"}, {"solids_stress", "frictional"}};
   scene.tfm.integrator = core::choice_of<core::TfmIntegrator>(integrator);
   return scene;

@@ -21,7 +21,7 @@ core::Scene fed_box() {
 }
 const std::vector<Bead> one_at_rest{{"a", {1e-3, r, 1e-3}}};
 
-core::Feed feed_of(const std::string& species, core::ColumnEnd at, std::vector<std::pair<double, double>> rate,
+core::Feed feed_of(const std::string& species, core::ColumnFace at, std::vector<std::pair<double, double>> rate,
                    double velocity, std::vector<double> from = {}, std::vector<double> to = {}) {
   return {species, at, std::move(rate), velocity, std::move(from), std::move(to)};
 }
@@ -31,7 +31,7 @@ core::Feed feed_of(const std::string& species, core::ColumnEnd at, std::vector<s
 TEST(DemFeed, LetsInWholeParticlesOfTheVolumeCalledFor) {
   constexpr double most = 4e-3, area = 10e-3 * side;
   core::Scene scene = fed_box();
-  scene.feeds = {feed_of("a", core::ColumnEnd::top, {{0.0, 0.0}, {0.01, most}, {0.01, most / 2}}, 0.5, {5e-3, 0.0},
+  scene.feeds = {feed_of("a", core::ColumnFace::top, {{0.0, 0.0}, {0.01, most}, {0.01, most / 2}}, 0.5, {5e-3, 0.0},
                          {15e-3, side})};
   Beads beads(scene, one_at_rest);
   const dem::Feeding& feeding = *beads.model.feeding();
@@ -68,7 +68,7 @@ TEST(DemFeed, LetsInWholeParticlesOfTheVolumeCalledFor) {
 TEST(DemFeed, LetsInADenseStreamWithoutOverlap) {
   constexpr double velocity = 0.5, rate = 0.3 * velocity;
   core::Scene scene = fed_box();
-  scene.feeds = {feed_of("a", core::ColumnEnd::bottom, {{0.0, rate}}, velocity)};
+  scene.feeds = {feed_of("a", core::ColumnFace::bottom, {{0.0, rate}}, velocity)};
   scene.feeds[0].from = {4e-3, 4e-3};
   scene.feeds[0].to = {side, side};
   Beads beads(scene, one_at_rest);
@@ -87,7 +87,7 @@ TEST(DemFeed, LetsInADenseStreamWithoutOverlap) {
 TEST(DemFeed, LetsParticlesWaitUntilThereIsRoom) {
   core::Scene scene = fed_box();
   scene.feeds = {
-      feed_of("a", core::ColumnEnd::bottom, {{0.0, 0.2}, {0.01, 0.2}, {0.01, 0.0}}, 1, {5e-3, 5e-3}, {6e-3, 6e-3})};
+      feed_of("a", core::ColumnFace::bottom, {{0.0, 0.2}, {0.01, 0.2}, {0.01, 0.0}}, 1, {5e-3, 5e-3}, {6e-3, 6e-3})};
   Beads beads(scene, {{"a", {5.5e-3, r, 5.5e-3}, {0, 0.05, 0}}});
   beads.until(0.012);  // 3 are called for by 10 ms, and the first is 0.6 mm high
   const dem::Feeding& feeding = *beads.model.feeding();
@@ -103,7 +103,7 @@ TEST(DemFeed, LetsParticlesWaitUntilThereIsRoom) {
 TEST(DemFeed, BringsItsEnergyWithIt) {
   core::Scene scene = fed_box();
   scene.column.gravity = 9.81;
-  scene.feeds = {feed_of("a", core::ColumnEnd::top, {{0.0, 2e-3}}, 0.5)};
+  scene.feeds = {feed_of("a", core::ColumnFace::top, {{0.0, 2e-3}}, 0.5)};
   Beads beads(scene, {{"a", {1e-3, 4e-3, 1e-3}}});
   const dem::Totals start = dem::totals_of(beads.model);
   beads.until(0.02);
@@ -129,7 +129,7 @@ core::Scene hopper() {
   scene.dem.greatest_speed.reset();
   core::set_restitution(scene, 0.6);
   for (const char* species : {"a", "b"})
-    scene.feeds.push_back(feed_of(species, core::ColumnEnd::top, {{0.0, 0.02}}, 0.3, {2e-3}, {10e-3}));
+    scene.feeds.push_back(feed_of(species, core::ColumnFace::top, {{0.0, 0.02}}, 0.3, {2e-3}, {10e-3}));
   return scene;
 }
 
@@ -210,7 +210,7 @@ core::Scene fed_water(int every) {
   scene.inlet.superficial_velocity = {{0.0, 0.01}};
   scene.dem.fluid_every = every;
   scene.dem.greatest_speed = 0.3;
-  scene.feeds = {feed_of("a", core::ColumnEnd::top, {{0.0, 1e-3}}, 0.1)};
+  scene.feeds = {feed_of("a", core::ColumnFace::top, {{0.0, 1e-3}}, 0.1)};
   return scene;
 }
 

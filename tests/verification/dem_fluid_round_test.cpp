@@ -193,7 +193,7 @@ TEST(DemRoundColumn, IsFedWithinItsCircle) {
   scene.inlet.superficial_velocity = {{0.0, 0.01}};
   scene.dem.fixed_step = 1e-4;
   scene.dem.fluid_every = 10;
-  scene.feeds = {{"a", core::ColumnEnd::top, {{0.0, 1e-3}}, 0.1, {}, {}}};
+  scene.feeds = {{"a", core::ColumnFace::top, {{0.0, 1e-3}}, 0.1, {}, {}}};
   Beads bed(scene, {{"a", {0.5 * across, 10e-3, 0.5 * across}}});
   bed.steps(1000);
   EXPECT_EQ(bed.model.feeding()->all(), 10);

@@ -123,7 +123,7 @@ TEST(DemRoundWalls, ABedFillsTheCircle) {
 TEST(DemRoundWalls, AFeedEntersWithinTheCircle) {
   core::Scene scene = column_of(0.01, 0.02);
   scene.column.gravity = 9.81;
-  scene.feeds.push_back({"a", core::ColumnEnd::top, {{0, 0.05}}, 0.5, {}, {}});
+  scene.feeds.push_back({"a", core::ColumnFace::top, {{0, 0.05}}, 0.5, {}, {}});
   Beads beads(scene, {{"a", {0.005, r, 0.005}}});
   std::int64_t seen = 0;
   beads.run_while([&] {

@@ -76,7 +76,7 @@ TEST_P(Openings, ATransportColumnPassesOnWhatItIsFed) {
   core::Scene scene = transport(GetParam());
   const double velocity = transport_velocity(1200, transport_flux), flux = transport_fraction * velocity;
   scene.inlet.superficial_velocity = {{0.0, transport_flux - flux}};
-  scene.feeds.push_back({"solid", core::ColumnEnd::bottom, {{0.0, flux}}, velocity, {}, {}});
+  scene.feeds.push_back({"solid", core::ColumnFace::bottom, {{0.0, flux}}, velocity, {}, {}});
   core::Timers timers;
   tfm::Model model(scene, timers);
   const std::vector<double> start = volumes(model);
@@ -135,12 +135,12 @@ core::Scene busy(const std::string& integrator) {
   scene.jets.push_back({{0.01}, {0.02}, {{0.0, 0.09}, {0.1, 0.09}, {0.1, 0.18}}});
   scene.jets.push_back({{0.0}, {0.005}, {{0.0, 0.03}, {0.2, 0.06}}});
   scene.feeds.push_back({"fine",
-                         core::ColumnEnd::bottom,
+                         core::ColumnFace::bottom,
                          {{0.0, 0.0}, {0.1, 0.004}, {0.15, 0.004}, {0.15, 0.001}},
                          0.05,
                          {0.012},
                          {0.02}});
-  scene.feeds.push_back({"coarse", core::ColumnEnd::top, {{0.0, 0.001}}, 0.06, {0.005}, {0.0125}});
+  scene.feeds.push_back({"coarse", core::ColumnFace::top, {{0.0, 0.001}}, 0.06, {0.005}, {0.0125}});
   return scene;
 }
 
@@ -243,7 +243,7 @@ TEST_P(Openings, NearFloodingNoSolidsComeFromNowhere) {
     scene.tfm.integrator = core::choice_of<core::TfmIntegrator>(GetParam());
     scene.tfm.rtol = 1e-3;
     scene.inlet.superficial_velocity = {{0.0, velocity}};
-    scene.feeds.push_back({"heavy", core::ColumnEnd::top, {{0.0, 0.0}, {0.1, 0.005}}, 0.1, {0.008}, {0.02}});
+    scene.feeds.push_back({"heavy", core::ColumnFace::top, {{0.0, 0.0}, {0.1, 0.005}}, 0.1, {0.008}, {0.02}});
     core::Timers timers;
     tfm::Model model(scene, timers);
     const std::vector<double> start = volumes(model);
@@ -270,7 +270,7 @@ TEST(OpeningsOfAScreen, CostNothing) {
   const auto unknowns = [&] { return tfm::Model(scene, timers).unknowns(); };
   const std::size_t closed = unknowns();
   EXPECT_EQ(closed, 2U * 120 + 3U * (7 * 20 + 6 * 21));
-  scene.feeds.push_back({"fine", core::ColumnEnd::bottom, {{0.0, 0.001}}, 0.1, {}, {}});
+  scene.feeds.push_back({"fine", core::ColumnFace::bottom, {{0.0, 0.001}}, 0.1, {}, {}});
   EXPECT_EQ(unknowns(), closed + 6);
   scene.column.outlet = core::Outlet::open;
   EXPECT_EQ(unknowns(), closed + 6 + 12);

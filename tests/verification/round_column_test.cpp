@@ -66,7 +66,7 @@ TEST_P(RoundBed, CountsWhatEntersAndLeaves) {
   scene.inlet.superficial_velocity = {{0.0, 0.06}};
   const std::vector<double> low = rings ? std::vector{0.004} : std::vector{0.0045, 0.0045},  // over cells that are cut
       high = rings ? std::vector{0.008} : std::vector{0.009, 0.01};
-  scene.feeds.push_back({"fine", core::ColumnEnd::bottom, {{0.0, 0.004}}, 0.05, low, high});
+  scene.feeds.push_back({"fine", core::ColumnFace::bottom, {{0.0, 0.004}}, 0.05, low, high});
   const double area = rings ? std::numbers::pi * (0.008 * 0.008 - 0.004 * 0.004) : 0.0045 * 0.0055;
   // The bed is solids_fraction times its settled height over the circle, whatever the cells.
   expect_a_closed_ledger(scene, 0.569 * 0.62 * 0.048 * std::numbers::pi * radius * radius, area * 0.004 * 0.2);

@@ -62,7 +62,7 @@ TEST_P(TaperedBed, CountsWhatEntersAndLeaves) {
   scene.inlet.superficial_velocity = {{0.0, 0.06}};
   const std::vector<double> low = rings ? std::vector{0.001} : std::vector{0.0115, 0.0115},
                             high = rings ? std::vector{0.008} : std::vector{0.017, 0.018};  // over cells that are cut
-  scene.feeds.push_back({"fine", core::ColumnEnd::bottom, {{0.0, 0.004}}, 0.05, low, high});
+  scene.feeds.push_back({"fine", core::ColumnFace::bottom, {{0.0, 0.004}}, 0.05, low, high});
   const double area = rings ? std::numbers::pi * (0.008 * 0.008 - 0.001 * 0.001) : 0.0055 * 0.0065;
   // Of the frustum below 48 mm, 16 to 25.6 mm across, whatever the cells.
   const double frustum = std::numbers::pi / 12 * 0.048 * (0.016 * 0.016 + 0.016 * 0.0256 + 0.0256 * 0.0256);

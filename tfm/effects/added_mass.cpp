@@ -165,7 +165,7 @@ class AddedMass final : public InertiaEffect {
     fluid::for_each_boundary_row(constants_.grid, 1, 1, [&](Index begin, Index end) {
       for (std::size_t j = 0; j < constants_.species(); ++j)
         for (Index c = begin; c < end; ++c)
-          if (constants_.openings.holds(j, c)) of_species[j][1][std::size_t(c)] = 0;
+          if (constants_.openings.holds(j, 1, c)) of_species[j][1][std::size_t(c)] = 0;
     });
   }
 

@@ -58,7 +58,7 @@ bool Equations::evaluate(double t, std::span<const double> y) {
   terms_(equations_, fields);
   fluid::flux_rate(constants.grid, equations_.boundaries(), fields.solids, fields.fluid, constants.fluid.density,
                    fields.fluid_acceleration, fields.flux_rate);
-  if (!equations_.boundaries().closed()) equations_.inlet().set_rate(t, fields.flux_rate.free[1]);
+  if (!equations_.boundaries().closed()) equations_.inlet().set_rate(t, fields.flux_rate.free);
   return true;
 }
 

@@ -140,6 +140,8 @@ INSTANTIATE_TEST_SUITE_P(
               "times must not fall"},
         Wrong{"[effects]", "[[jet]]\nfrom = [0.01]\nto = [0.07]\nsuperficial_velocity = 0.1\n[effects]",
               "a jet from 0.01 to 0.07 m does not lie on the bottom, 0 to 0.06 m"},
+        Wrong{"[effects]", "[[jet]]\nat = \"left\"\nfrom = [0.5]\nto = [0.7]\nsuperficial_velocity = 0.1\n[effects]",
+              "case.toml:20:8: a jet from 0.5 to 0.7 m does not lie on the left side, 0 to 0.6 m"},
         Wrong{"[effects]", "[[jet]]\nfrom = [0.01, 0]\nto = [0.02]\nsuperficial_velocity = 0.1\n[effects]",
               "jet.from and jet.to have 2 and 1 numbers: 1 here"},
         Wrong{"[effects]",

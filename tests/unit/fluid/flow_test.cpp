@@ -1,4 +1,5 @@
-// A fluid alone in a round column: what enters leaves, through every layer and out of every cell.
+// A fluid alone in a round column, or crossing the sides of a box: what enters leaves, through every layer and out of
+// every cell.
 #include "fluid/flow.hpp"
 
 #include <gtest/gtest.h>
@@ -130,6 +131,61 @@ TEST(FlowInARoundColumn, HasTheGradientOfItsNeighbourOnClosedFaces) {
     const auto f = std::size_t(grid.index(i, 4, 2));
     EXPECT_NEAR(flow.gradient()[0][f], 3.0 / grid.spacing[0], 1e-9) << i;
   }
+}
+
+/// A box of 8 x 6 cells of 10 mm without viscosity, its fluid alone.
+core::Scene box_scene() {
+  core::Scene scene;
+  scene.column.size = {0.08, 0.06, 0.01};
+  scene.column.cells = {8, 6, 1};
+  scene.fluid.name = "test fluid";
+  scene.fluid.density = 1000;
+  scene.fluid.viscosity = 1e-3;
+  scene.inlet.superficial_velocity = {{0.0, 0.0}};
+  return scene;
+}
+
+// In over the whole left side, out over the whole right one: a plug that no pressure drives.
+TEST(FlowThroughSides, IsAPlugBetweenTwoWholeSides) {
+  core::Scene scene = box_scene();
+  scene.inlet.at = core::ColumnEnd::top;
+  scene.jets.push_back({{0.0}, {0.06}, {{0.0, inflow}}, core::ColumnFace::left});
+  scene.jets.push_back({{0.0}, {0.06}, {{0.0, -inflow}}, core::ColumnFace::right});
+  Flow flow(scene, core::grid_of(scene.column, nullptr), 1e-10);
+  const ParticlePhase none(flow.grid(), false);
+  flow.begin(0, none);
+  for (int n = 0; n < 20; ++n) (void)flow.advance(n * 0.02, 0.02, none);
+  core::for_each_row(flow.grid(), core::owned_faces(flow.grid(), 0), [&](Index begin, Index end) {
+    for (auto f = std::size_t(begin); f < std::size_t(end); ++f)
+      EXPECT_NEAR(flow.state().velocity[0][f], inflow, 1e-8 * inflow);
+  });
+  core::for_each_row(flow.grid(), [&](Index begin, Index end) {
+    for (auto c = std::size_t(begin); c < std::size_t(end); ++c) {
+      EXPECT_NEAR(flow.state().velocity[1][c], 0, 1e-8 * inflow);
+      EXPECT_NEAR(flow.state().pressure[c] - flow.state().pressure[std::size_t(flow.grid().index(0, 0))], 0,
+                  1e-6 * 1000 * inflow * inflow);
+    }
+  });
+}
+
+// Jets over 10 and 15 mm of the sides: each level above them carries (10 + 15) mm x 20 mm/s over 80 mm.
+TEST(FlowThroughSides, PassesOnWhatJetsBring) {
+  core::Scene scene = box_scene();
+  scene.effects["fluid_stress"] = "newtonian";
+  scene.jets.push_back({{0.005}, {0.015}, {{0.0, inflow}}, core::ColumnFace::left});
+  scene.jets.push_back({{0.01}, {0.025}, {{0.0, inflow}}, core::ColumnFace::right});
+  Flow flow(scene, core::grid_of(scene.column, nullptr), 1e-10);
+  const core::Grid& grid = flow.grid();
+  const ParticlePhase none(grid, false);
+  flow.begin(0, none);
+  for (int n = 0; n < 20; ++n) (void)flow.advance(n * 0.02, 0.02, none);
+  for (int j = 3; j <= 6; ++j) {
+    double passing = 0;
+    for (int i = 0; i < 8; ++i) passing += flow.state().flux[1][std::size_t(grid.index(i, j))];
+    EXPECT_NEAR(passing / 8, inflow * 25 / 80, 1e-9 * inflow) << j;
+  }
+  EXPECT_NEAR(flow.state().velocity[0][std::size_t(grid.index(0, 0))], 0.5 * inflow, 1e-17);
+  EXPECT_NEAR(flow.state().velocity[0][std::size_t(grid.index(8, 1))], -inflow, 1e-17);
 }
 
 }  // namespace

@@ -55,10 +55,10 @@ TEST(Inlet, AJetTakesItsAreaOnAnyGrid) {
   for (const int nx : {1, 4, 7, 40}) {
     const core::Grid grid = bottom(nx, 1);
     const Inlet inlet(grid, with_jet(2));
-    core::Field flux = core::make_field(grid);
+    core::FaceField flux = core::make_face_field(grid);
     inlet.set_velocity(0, flux);
     double sum = 0;
-    for (int i = 0; i < nx; ++i) sum += flux[std::size_t(grid.index(i, 0))] / nx;
+    for (int i = 0; i < nx; ++i) sum += flux[1][std::size_t(grid.index(i, 0))] / nx;
     EXPECT_NEAR(sum, 0.07175, 1e-15) << nx;
     EXPECT_NEAR(inlet.mean_velocity(0), 0.07175, 1e-15);
   }
@@ -67,16 +67,71 @@ TEST(Inlet, AJetTakesItsAreaOnAnyGrid) {
 TEST(Inlet, FacesHaveTheirShare) {
   const core::Grid grid = bottom(4, 1);  // faces of 10 mm; the jet covers 7 mm of the second and 6 mm of the third
   const Inlet inlet(grid, with_jet(2));
-  core::Field flux = core::make_field(grid), rate = flux;
+  core::FaceField flux = core::make_face_field(grid), rate = flux;
   inlet.set_velocity(0.5, flux);
   inlet.set_rate(0.5, rate);
-  EXPECT_DOUBLE_EQ(flux[std::size_t(grid.index(0, 0))], 0.01);
-  EXPECT_DOUBLE_EQ(flux[std::size_t(grid.index(1, 0))], 0.7 * 0.3 + 0.3 * 0.01);
-  EXPECT_DOUBLE_EQ(flux[std::size_t(grid.index(2, 0))], 0.6 * 0.3 + 0.4 * 0.01);
-  EXPECT_NEAR(rate[std::size_t(grid.index(1, 0))], 0.7 * 0.2, 1e-15);
-  EXPECT_EQ(rate[std::size_t(grid.index(3, 0))], 0);
+  EXPECT_DOUBLE_EQ(flux[1][std::size_t(grid.index(0, 0))], 0.01);
+  EXPECT_DOUBLE_EQ(flux[1][std::size_t(grid.index(1, 0))], 0.7 * 0.3 + 0.3 * 0.01);
+  EXPECT_DOUBLE_EQ(flux[1][std::size_t(grid.index(2, 0))], 0.6 * 0.3 + 0.4 * 0.01);
+  EXPECT_NEAR(rate[1][std::size_t(grid.index(1, 0))], 0.7 * 0.2, 1e-15);
+  EXPECT_EQ(rate[1][std::size_t(grid.index(3, 0))], 0);
   EXPECT_EQ(inlet.breakpoints(), (std::vector<double>{0.0, 1.0}));
   EXPECT_EQ(inlet.greatest(), 0.4);
+}
+
+// Three faces of 10 mm in the right side, the jet from 5 to 25 mm: inwards is to the left. It shuts where all do.
+TEST(Inlet, AJetInASideTakesItsFaces) {
+  core::Scene scene;
+  scene.inlet.superficial_velocity = {{0.0, 0.0}};
+  scene.jets.push_back({{0.005}, {0.025}, {{0.0, 0.2}, {1.0, 0.4}}, core::ColumnFace::right});
+  scene.discharges.push_back({core::ColumnFace::left, {}, {}, {{0.0, 0.1}}});
+  const core::Grid grid = bottom(4, 1);
+  const Inlet inlet(grid, scene);
+  core::FaceField flux = core::make_face_field(grid, 7.0), rate = flux;
+  inlet.set_velocity(0.5, flux);
+  inlet.set_rate(0.5, rate);
+  const auto at = [&](int i, int j) { return std::size_t(grid.index(i, j)); };
+  EXPECT_DOUBLE_EQ(flux[0][at(4, 0)], -0.5 * 0.3);
+  EXPECT_DOUBLE_EQ(flux[0][at(4, 1)], -0.3);
+  EXPECT_DOUBLE_EQ(rate[0][at(4, 2)], -0.5 * 0.2);
+  EXPECT_EQ(flux[0][at(0, 1)], -0.1);
+  EXPECT_EQ(flux[0][at(3, 1)], 7) << "inside";
+  EXPECT_EQ(flux[1][at(3, 0)], 0);
+  EXPECT_EQ(inlet.mean_velocity(0.5), 0) << "through the bottom";
+  EXPECT_EQ(inlet.greatest(), 0.4);
+  EXPECT_FALSE(inlet.shuts());
+  inlet.extend(flux);
+  EXPECT_EQ(flux[0][at(5, 1)], flux[0][at(4, 1)]);
+  EXPECT_EQ(flux[0][at(-2, 1)], flux[0][at(0, 1)]);
+}
+
+// 20 of 30 mm in at 0.2 m/s, 30 mm out at 0.1: what is left over, 1e-3 m2/s, leaves through 40 mm of the top.
+TEST(Inlet, WhatASideBringsLeavesThroughAGivenTop) {
+  core::Scene scene;
+  scene.inlet = {{{0.0, 0.0}}, {}, core::ColumnEnd::top};
+  scene.jets.push_back({{0.005}, {0.025}, {{0.0, 0.2}}, core::ColumnFace::right});
+  scene.discharges.push_back({core::ColumnFace::left, {}, {}, {{0.0, 0.1}}});
+  const core::Grid grid = bottom(4, 1);
+  core::FaceField flux = core::make_face_field(grid);
+  Inlet(grid, scene).set_velocity(0, flux);
+  for (int i = 0; i < 4; ++i) EXPECT_NEAR(flux[1][std::size_t(grid.index(i, 3))], 1e-3 / 0.04, 1e-16);
+}
+
+TEST(ColumnFace, HasAnAxisASideAndTheAxesOfItsCorners) {
+  using enum core::ColumnFace;
+  for (const core::ColumnFace face : {bottom, top, left, right, front, back})
+    EXPECT_EQ(core::face_of(axis_of(face), side_of(face)), face) << core::name_of(face);
+  EXPECT_EQ(axis_of(left), 0);
+  EXPECT_EQ(axis_of(top), 1);
+  EXPECT_EQ(axis_of(front), 2);
+  EXPECT_EQ(side_of(left), 0);
+  EXPECT_EQ(side_of(back), 1);
+  EXPECT_EQ(axis_along(left, 2, 0), 1);   // height
+  EXPECT_EQ(axis_along(right, 3, 0), 2);  // depth, height
+  EXPECT_EQ(axis_along(right, 3, 1), 1);
+  EXPECT_EQ(axis_along(front, 3, 0), 0);  // width, height
+  EXPECT_EQ(axis_along(front, 3, 1), 1);
+  EXPECT_EQ(axis_along(bottom, 3, 1), 2);
 }
 
 TEST(Inlet, KnowsWhetherItShuts) {

@@ -1,0 +1,32 @@
+"""For each rule of jets, feeds and discharges in sides what breaks it, in words of --set as in case_rules_test.py."""
+from wall_rules import AROUND
+
+
+def part(table, *parts):
+    """Entries of a table: at, from, to."""
+    more = 'species="fine", velocity=1, ' if table == "feed" else ""
+    entries = (f'{{{more}superficial_velocity=0.1, at="{at}", from={low}, to={high}}}' for at, low, high in parts)
+    return f"{table}=[" + ", ".join(entries) + "]"
+
+
+LOW, HIGH = ([0.02], [0.04]), ([0.1], [0.15])
+PORTS = {
+    **{f'{table}.at = "{{}}"{told}': [part(table, (at, *LOW)), *words] for table in ("jet", "feed", "discharge") for told, at, words in (
+        (": a column of two dimensions has two sides, left and right", "front", []),
+        (' and column.sides = "periodic" contradict each other: joined sides have no wall', "left", ["column.sides=periodic"]),
+        (' needs column.shape = "box": a round column has no such side yet', "right", [AROUND]))},
+    'jet.at = "top": a jet enters through the bottom or a side': [part("jet", ("top", *LOW))],
+    'discharge.at = "{}": a discharge lies in a side, left, right, front or back': [part("discharge", ("bottom", *LOW))],
+    "discharge.from and discharge.to have {} and {} numbers: {} here": [part("discharge", ("left", [0.02, 0.01], [0.04, 0.03]))],
+    "a discharge from {} to {} m does not lie {}, 0 to {} m": [part("discharge", ("left", [0.1], [0.3]))],
+    "two discharges overlap: [[discharge]] number {} and {}": [part("discharge", ("left", *LOW), ("left", [0.03], [0.05]))],
+    "[[discharge]] number {} overlaps [[{}]] number {}": [part("discharge", ("left", *LOW)), part("jet", ("right", *LOW), ("left", *LOW))],
+    "[[discharge]] cannot act: column.closed = true": ["column.closed=true", part("discharge", ("left", *LOW))],
+    "[[discharge]] number {} and [[feed]] number {} share a cell of the {} side: move them apart, or take smaller cells": [
+        part("discharge", ("left", [0.02], [0.034])), part("feed", ("left", [0.036], [0.05]))],
+}
+PORTS_FOR_ONE_MODEL = {
+    'feed.at = "{}": polybed tfm can run it, polybed dem cannot: particles enter through the bottom or the top': [part("feed", ("left", *LOW))],
+    '[[discharge]]: polybed tfm can run it, polybed dem cannot: particles leave through the top, by column.outlet = "open", or without a '
+    "fluid through dem.opening": [part("discharge", ("left", *HIGH))],
+}
