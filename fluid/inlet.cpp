@@ -114,21 +114,19 @@ Inlet::Inlet(const core::Grid& grid, const core::Scene& scene) : grid_(grid) {
     above_ = core::open_faces_below(grid, 0) / core::open_faces_below(grid, grid.column_cells(1));
   const std::size_t faces = std::size_t(grid.cells[0]) * std::size_t(grid.cells[2]);
   parts_.push_back({Ramp(scene.inlet.superficial_velocity), std::vector<double>(faces, 1.0), 1});
-  for (const core::Jet& jet : scene.jets) {
-    if (is_side(jet.at)) {
-      add_port(jet, 1);
-      continue;
-    }
-    Part part{Ramp(jet.superficial_velocity), face_shares(grid, jet.from, jet.to), 0};
+  const auto add = [&](const auto& given, double inward) {
+    if (is_side(given.at)) return add_port(given, inward);
+    Part part{Ramp(given.superficial_velocity, inward), face_shares(grid, given.from, given.to), 0};
     for (std::size_t f = 0; f < faces; ++f) parts_.front().share[f] -= part.share[f];
     parts_.push_back(std::move(part));
-  }
+  };
+  for (const core::Jet& jet : scene.jets) add(jet, 1);
   for (const core::Feed& feed : scene.feeds) {
     if (is_side(feed.at)) add_port(feed, 1);
     if (feed.at == core::ColumnFace::bottom)
       parts_.push_back({Ramp(feed.superficial_velocity), face_shares(grid, feed.from, feed.to), 0});
   }
-  for (const core::Discharge& discharge : scene.discharges) add_port(discharge, -1);
+  for (const core::Discharge& discharge : scene.discharges) add(discharge, -1);
   for (Part& part : parts_) part.mean_share = mean_over_bottom(part.share);
 }
 

@@ -221,7 +221,7 @@ std::vector<Passed> Openings::passed(const Interphase& solids) const {
       for (Index c = begin; c < end; ++c) {
         const double along = (open ? open[c] : 1.0) * area * solids.passed[passage.species][a][std::size_t(c)];
         Passed& sum = result[passage.species];
-        if (passage.at == core::ColumnFace::bottom || holds(passage.species, axis, c))
+        if (holds(passage.species, axis, c))
           sum.in += inward * along;
         else
           sum.out -= inward * along;

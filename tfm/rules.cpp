@@ -72,7 +72,7 @@ Broken outlet_fed_shut(const Scene& scene) {
   return broken;
 }
 
-/// Feeds and jets of which nothing can come in, since all their cells are cut off by a round wall.
+/// Feeds, jets and discharges through which nothing can pass, since all their cells are cut off by a round wall.
 Broken on_closed_cells(const Scene& scene) {
   Broken broken;
   if ((!scene.column.is_round() && !scene.column.is_tapered()) || scene.column.closed) return broken;
@@ -86,6 +86,7 @@ Broken on_closed_cells(const Scene& scene) {
   };
   see(scene.feeds, "[[feed]]");
   see(scene.jets, "[[jet]]");
+  see(scene.discharges, "[[discharge]]");
   return broken;
 }
 
@@ -145,11 +146,11 @@ std::vector<core::Rule> key_rules() {
        "give "
        "feed.from and feed.to for a part of the top, or column.outlet = \"screen\"",
        outlet_fed_shut},
-      {{"column.shape", "column.size", "column.cells", "feed.", "jet."},
+      {{"column.shape", "column.size", "column.cells", "feed.", "jet.", "discharge."},
        "{} number {} lies on cells that the round wall cuts off: move it inwards, or take smaller cells",
        on_closed_cells},
       {{"discharge.from", "discharge.", "feed.", "column.", "species.name", "species.diameter", "dem.skin"},
-       "[[discharge]] number {} and [[feed]] number {} share a cell of the {} side: move them apart, or take smaller "
+       "[[discharge]] number {} and [[feed]] number {} share a cell ({}): move them apart, or take smaller "
        "cells",
        discharge_beside_a_feed},
       {{"column.shape", "column.profile", "tfm.solids_wall"},

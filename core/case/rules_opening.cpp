@@ -84,6 +84,14 @@ Broken overlap_each_other(const std::vector<Part>& parts) {
   return broken;
 }
 
+template <class Part>
+Broken at_the_top(const std::vector<Part>& parts) {
+  Broken broken;
+  for (std::size_t n = 0; n < parts.size(); ++n)
+    if (parts[n].at == ColumnFace::top) broken.add({}, n);
+  return broken;
+}
+
 /// What enters where a discharge takes it.
 Broken discharges_overlap_inflows(const Scene& scene) {
   Broken broken;
@@ -168,10 +176,7 @@ std::vector<Rule> place_rules(const std::string& table, std::vector<Part> Scene:
 std::vector<Rule> jet_rules() {
   std::vector<Rule> rules = place_rules("jet", &Scene::jets);
   rules.push_back({{"jet.at"}, "jet.at = \"top\": a jet enters through the bottom or a side", [](const Scene& scene) {
-                     Broken broken;
-                     for (std::size_t n = 0; n < scene.jets.size(); ++n)
-                       if (scene.jets[n].at == ColumnFace::top) broken.add({}, n);
-                     return broken;
+                     return at_the_top(scene.jets);
                    }});
   rules.push_back({{"jet.from", "jet.to", "jet.at", "column.size"},
                    "two jets overlap: [[jet]] number {} and {}",
@@ -182,14 +187,9 @@ std::vector<Rule> jet_rules() {
 std::vector<Rule> discharge_rules() {
   std::vector<Rule> rules = place_rules("discharge", &Scene::discharges);
   rules.push_back({{"discharge.at"},
-                   "discharge.at = \"{}\": a discharge lies in a side, left, right, front or back",
-                   [](const Scene& scene) {
-                     Broken broken;
-                     for (std::size_t n = 0; n < scene.discharges.size(); ++n)
-                       if (const ColumnFace at = scene.discharges[n].at; !is_side(at))
-                         broken.add({std::string(name_of(at))}, n);
-                     return broken;
-                   }});
+                   "discharge.at = \"top\": a discharge lies in the bottom or a side; solids leave through the top by "
+                   "column.outlet = \"open\"",
+                   [](const Scene& scene) { return at_the_top(scene.discharges); }});
   rules.push_back({{"discharge.from", "discharge.to", "discharge.at", "column.size"},
                    "two discharges overlap: [[discharge]] number {} and {}",
                    [](const Scene& scene) { return overlap_each_other(scene.discharges); }});

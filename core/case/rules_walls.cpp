@@ -122,12 +122,20 @@ Broken feeds_beyond_the_circle(const Scene& scene) {
   return broken;
 }
 
-Broken jets_beyond_the_circle(const Scene& scene) {
-  Broken broken;
-  for (std::size_t n = 0; n < scene.jets.size(); ++n)
-    if (is_beyond_the_circle(scene.column, scene.jets[n], ColumnFace::bottom))
-      broken.add({std::to_string(n + 1), fmt::format("{:.4g}", diameter_at(scene.column, ColumnFace::bottom))}, n);
-  return broken;
+/// Of jets or discharges.
+template <class Part>
+Rule beyond_the_circle(const std::string& table, std::vector<Part> Scene::*parts) {
+  const std::string from = table + ".from", to = table + ".to";
+  return {{from, to, "column.size", "column.shape", "column.profile"},
+          "[[" + table + "]] number {} reaches beyond the round column, {} m in diameter: move " + from + " and " + to +
+              " inwards",
+          [parts](const Scene& scene) {
+            Broken broken;
+            for (std::size_t n = 0; n < (scene.*parts).size(); ++n)
+              if (const Part& part = (scene.*parts)[n]; is_beyond_the_circle(scene.column, part, part.at))
+                broken.add({std::to_string(n + 1), fmt::format("{:.4g}", diameter_at(scene.column, part.at))}, n);
+            return broken;
+          }};
 }
 
 /// Cells so long that a wall may cut one off from all others.
@@ -209,9 +217,8 @@ std::vector<Rule> round_column_rules() {
        "[[feed]] of {} reaches beyond the round column, {} m in diameter: move feed.from and feed.to inwards, or "
        "leave them out",
        feeds_beyond_the_circle},
-      {{"jet.from", "jet.to", "column.size", "column.shape", "column.profile"},
-       "[[jet]] number {} reaches beyond the round column, {} m in diameter: move jet.from and jet.to inwards",
-       jets_beyond_the_circle},
+      beyond_the_circle("jet", &Scene::jets),
+      beyond_the_circle("discharge", &Scene::discharges),
       {{"column.cells", "column.size", "column.shape"},
        "column.cells: {} cells across and {} deep in a round column: at most four times as many one way",
        long_cells_in_a_cylinder}};

@@ -167,7 +167,7 @@ struct Feed {
   std::vector<double> from, to;  ///< as of a jet; empty: the whole end or side
 };
 
-/// A part of a side through which fluid and solids leave as they are next to it.
+/// A part of the bottom or a side through which fluid and solids leave as they are next to it.
 struct Discharge {
   ColumnFace at = ColumnFace::right;
   std::vector<double> from, to;                                 ///< as of a feed

@@ -217,14 +217,14 @@ Table discharge_table() {
       "discharge", &Scene::discharges,
       {
           key(&Discharge::at, "at", Mark::required,
-              help("side of the column through which fluid and solids leave together, as they are in the cells next to "
-                   "it; for the TFM only")),
+              help("bottom or side through which fluid and solids leave together, as they are in the cells next to it; "
+                   "for the TFM only")),
           key(&Discharge::superficial_velocity, "superficial_velocity", dimension::velocity, range(0, 1e3),
               Mark::required,
               help("volume of the mixture per area of the discharge and time, out of the column; a velocity or a table "
                    "as of the inlet. Where more enters, the rest leaves at the top, also with inlet.at = \"top\"")),
           key(&Discharge::from, "from", dimension::length, range(0, 1e3),
-              help("low corner of the part of the side, as of a jet; default: all of it")),
+              help("low corner of the part of the bottom or side, as of a jet; default: all of it")),
           key(&Discharge::to, "to", dimension::length, range(0, 1e3), help("high corner")),
       });
 }

@@ -36,8 +36,9 @@ double value_at(const std::vector<std::pair<double, double>>& points, double tim
   return before->second + share * (after->second - before->second);
 }
 
-/// Area of a jet over the bottom's.
-double share_of_bottom(const core::Column& column, const core::Jet& jet) {
+/// Area of a jet or discharge over the bottom's.
+template <class Part>
+double share_of_bottom(const core::Column& column, const Part& jet) {
   if (jet.from.empty() || jet.to.empty()) return 1;
   if (column.around_axis())
     return std::numbers::pi * (jet.to[0] * jet.to[0] - jet.from[0] * jet.from[0]) / column.cross_section();
@@ -54,6 +55,8 @@ double velocity_at_end(const core::Scene& scene) {
   for (const core::Jet& jet : scene.jets)
     mean += share_of_bottom(scene.column, jet) *
             (value_at(jet.superficial_velocity, scene.run.until) - (is_side(jet.at) ? 0 : inlet));
+  for (const core::Discharge& discharge : scene.discharges)
+    if (!is_side(discharge.at)) mean -= share_of_bottom(scene.column, discharge) * inlet;
   return mean;
 }
 

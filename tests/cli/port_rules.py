@@ -1,5 +1,5 @@
 """For each rule of jets, feeds and discharges in sides what breaks it, in words of --set as in case_rules_test.py."""
-from wall_rules import AROUND
+from wall_rules import AROUND, ROUND
 
 
 def part(table, *parts):
@@ -16,13 +16,16 @@ PORTS = {
         (' and column.sides = "periodic" contradict each other: joined sides have no wall', "left", ["column.sides=periodic"]),
         (' needs column.shape = "box": a round column has no such side yet', "right", [AROUND]))},
     'jet.at = "top": a jet enters through the bottom or a side': [part("jet", ("top", *LOW))],
-    'discharge.at = "{}": a discharge lies in a side, left, right, front or back': [part("discharge", ("bottom", *LOW))],
+    'discharge.at = "top": a discharge lies in the bottom or a side; solids leave through the top by column.outlet = "open"': [
+        part("discharge", ("top", *LOW))],
+    "[[discharge]] number {} reaches beyond the round column, {} m in diameter: move discharge.from and discharge.to inwards": [
+        *ROUND, part("discharge", ("bottom", [0, 0.02], [0.04, 0.04]))],
     "discharge.from and discharge.to have {} and {} numbers: {} here": [part("discharge", ("left", [0.02, 0.01], [0.04, 0.03]))],
     "a discharge from {} to {} m does not lie {}, 0 to {} m": [part("discharge", ("left", [0.1], [0.3]))],
     "two discharges overlap: [[discharge]] number {} and {}": [part("discharge", ("left", *LOW), ("left", [0.03], [0.05]))],
     "[[discharge]] number {} overlaps [[{}]] number {}": [part("discharge", ("left", *LOW)), part("jet", ("right", *LOW), ("left", *LOW))],
     "[[discharge]] cannot act: column.closed = true": ["column.closed=true", part("discharge", ("left", *LOW))],
-    "[[discharge]] number {} and [[feed]] number {} share a cell of the {} side: move them apart, or take smaller cells": [
+    "[[discharge]] number {} and [[feed]] number {} share a cell ({}): move them apart, or take smaller cells": [
         part("discharge", ("left", [0.02], [0.034])), part("feed", ("left", [0.036], [0.05]))],
 }
 PORTS_FOR_ONE_MODEL = {

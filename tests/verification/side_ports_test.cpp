@@ -133,6 +133,26 @@ TEST_P(SidePorts, TheLedgerClosesWhateverTheSteps) {
   EXPECT_LT(worst_ledger(model, start), 1e-12);
 }
 
+// Through the middle third of the bottom a bed is emptied: by 0.01 x 0.01 x 0.5 of the settled bed's fraction at most.
+TEST_P(SidePorts, ADischargeInTheBottomEmptiesTheBed) {
+  core::Scene scene = binary_bed(9, 20, 0.03, 0.08);
+  scene.tfm.integrator = integrator();
+  scene.tfm.rtol = 1e-3;
+  scene.inlet.superficial_velocity = {{0.0, 0.02}};
+  scene.discharges.push_back({ColumnFace::bottom, {0.01}, {0.02}, {{0.0, 0.01}}});
+  core::Timers timers;
+  tfm::Model model(scene, timers);
+  const std::vector<double> start = volumes_of(model);
+  advance_by_events(model, 0.5);
+  EXPECT_LT(worst_ledger(model, start), 1e-12);
+  const std::vector<fluid::Passed> passed = model.passed();
+  EXPECT_EQ(passed[0].in + passed[1].in, 0);
+  const double drawn = 0.01 * 0.01 * 0.5 * scene.column.size[2], out = (passed[0].out + passed[1].out) / drawn;
+  record("solids in what is drawn through the bottom", out);
+  EXPECT_GT(out, 0.4);
+  EXPECT_LT(out, 0.62);
+}
+
 // Volume that flows upwards over the width: 0.02 of the bottom; above 22 mm 0.4 of the left jet, from 0.1 s on 0.8 ...
 TEST_P(SidePorts, EveryLevelCarriesWhatHasComeInBelow) {
   core::Timers timers;

@@ -105,6 +105,21 @@ TEST(Inlet, AJetInASideTakesItsFaces) {
   EXPECT_EQ(flux[0][at(-2, 1)], flux[0][at(0, 1)]);
 }
 
+// The faces of 10 mm from 5 to 20 mm of the bottom: half of the first is the distributor's.
+TEST(Inlet, ADischargeInTheBottomReplacesIt) {
+  core::Scene scene;
+  scene.inlet.superficial_velocity = {{0.0, 0.01}};
+  scene.discharges.push_back({core::ColumnFace::bottom, {0.005}, {0.02}, {{0.0, 0.1}}});
+  const core::Grid grid = bottom(4, 1);
+  core::FaceField flux = core::make_face_field(grid);
+  const Inlet inlet(grid, scene);
+  inlet.set_velocity(0, flux);
+  EXPECT_DOUBLE_EQ(flux[1][std::size_t(grid.index(0, 0))], 0.5 * 0.01 - 0.5 * 0.1);
+  EXPECT_DOUBLE_EQ(flux[1][std::size_t(grid.index(1, 0))], -0.1);
+  EXPECT_DOUBLE_EQ(flux[1][std::size_t(grid.index(2, 0))], 0.01);
+  EXPECT_NEAR(inlet.mean_velocity(0), (0.025 * 0.01 - 0.015 * 0.1) / 0.04, 1e-16);
+}
+
 // 20 of 30 mm in at 0.2 m/s, 30 mm out at 0.1: what is left over, 1e-3 m2/s, leaves through 40 mm of the top.
 TEST(Inlet, WhatASideBringsLeavesThroughAGivenTop) {
   core::Scene scene;

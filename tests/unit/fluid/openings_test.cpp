@@ -84,14 +84,14 @@ TEST_F(Ends, WhatIsFedIsHeld) {
 }
 
 TEST_F(Ends, WhatHasPassedIsInOrOut) {
+  for (const int i : {0, 1}) solids.passed[0][1][at(i, 0)] = 2;
   for (int i = 0; i < nx; ++i) {
-    solids.passed[0][1][at(i, 0)] = 2;
     solids.passed[0][1][at(i, ny)] = 3;
     solids.passed[1][1][at(i, ny)] = -1;
   }
   const std::vector<Passed> passed = openings.passed(solids);
   constexpr double area = 0.01 * 0.005;
-  EXPECT_DOUBLE_EQ(passed[0].in, 4 * 2 * area);
+  EXPECT_DOUBLE_EQ(passed[0].in, 2 * 2 * area);
   EXPECT_DOUBLE_EQ(passed[0].out, 4 * 3 * area);
   EXPECT_DOUBLE_EQ(passed[1].in, 4 * 1 * area);
   EXPECT_EQ(passed[1].out, 0);
