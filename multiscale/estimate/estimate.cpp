@@ -27,13 +27,13 @@ TimeBand band_of(double seconds, const Spread& spread) {
   return {expected / spread.factor, expected, expected * spread.factor};
 }
 
-/// Of the two-fluid model, from the runs of docs/record/cost.md: 0.4 to 2.6 of explicit ones, 0.2 to 4.4 of implicit
+/// Of the two-fluid model, from the runs of docs/record/cost.md: 0.4 to 2.6 of explicit ones, 0.2 to 8.2 of implicit
 /// ones, which start with many Newton iterations and take longer steps until bubbles form, 0.3 to 1.4 of split ones,
 /// whose steps grow as the bed comes to rest. A probe knows what a step costs and how long the first ones are, not
 /// those of the expanded bed.
 Spread tfm_spread(core::TfmIntegrator integrator) {
   using enum core::TfmIntegrator;
-  if (integrator == implicit_steps) return {1.2, 4};
+  if (integrator == implicit_steps) return {1.5, 6};
   return {integrator == split_steps ? 0.55 : 1, 2.6};
 }
 constexpr double probe_factor = 1.8;
