@@ -99,6 +99,19 @@ class FluidOnRanks(Scratch):
             self.assertEqual(same_bits(whole / name, parted / name), [], name)
         self.assertEqual(self.record(whole), self.record(parted))
 
+    def test_jets_in_sides_store_the_same_on_several_ranks_and_after_a_restart(self):
+        jets = ["--set", 'jet=[{at="left", from=[0.005], to=[0.012], superficial_velocity=0.06}, '
+                         '{at="right", from=[0.01], to=[0.03], superficial_velocity=[[0, 0], [0.004, 0.03]]}]']
+        one, each, parted = (self.folder / name for name in ("jets", "each", "parted"))
+        self.on(1, *jets, "-o", one)
+        self.on(2, *jets, "-o", each)
+        self.on(2, *jets, "-o", parted, "--until", "5 ms")
+        self.on(2, *jets, "-o", parted, "--resume")
+        for name in FILES[:3]:
+            self.assertEqual(same_bits(one / name, each / name), [], name)
+            self.assertEqual(same_bits(one / name, parted / name), [], name)
+        self.assertNotEqual(same_bits(one / "fields.h5", self.one / "fields.h5"), [])
+
     def test_a_round_column_stores_the_same_on_several_ranks_and_after_a_restart(self):
         one, each, shared, parted = (self.folder / name for name in ("round", "each", "shared", "parted"))
         self.on(1, *ROUND, "-o", one)
