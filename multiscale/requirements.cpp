@@ -231,13 +231,11 @@ std::string shape_text(const core::Column& column) {
   if (!tapered)
     return fmt::format("{}: {} cells, {} of {} in a layer are open, the smallest {:.2g} of a whole one", across,
                        column.cells[0], open, cells, least);
-  double narrowest = 2 * radius;
-  for (const auto& [height, diameter] : column.profile) narrowest = std::min(narrowest, diameter);
   return fmt::format(
       "round, {:.4g} mm across at the bottom, {:.4g} at the top: {:.3g} cells where it is narrowest, {:.4g} l, {} of "
       "{} "
       "cells are open, the smallest {:.2g} of a whole one",
-      1e3 * column.profile.front().second, 1e3 * column.profile.back().second, narrowest / grid.spacing[0],
+      1e3 * column.profile.front().second, 1e3 * column.profile.back().second, column.narrowest() / grid.spacing[0],
       1e3 * column.cross_section() * column.even_height(column.size[1]), open, layers * cells, least);
 }
 

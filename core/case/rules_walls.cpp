@@ -19,12 +19,6 @@ bool has_round_wall(const Scene& scene) {
 /// a round one is at least twice as wide as particles.
 bool too_narrow(double diameter, const Species& species) { return 2 * species.diameter > diameter * (1 + 1e-12); }
 
-double narrowest_of(const Column& column) {
-  double narrowest = column.profile.front().second;
-  for (const auto& [height, diameter] : column.profile) narrowest = std::min(narrowest, diameter);
-  return narrowest;
-}
-
 Broken not_round(const Scene& scene) {
   const std::vector<double>& size = scene.column.given_size;
   if (!scene.column.is_round() || (size.size() != 2 && size.size() != 3)) return {};
@@ -34,7 +28,7 @@ Broken not_round(const Scene& scene) {
 Broken column_too_narrow(const Scene& scene) {
   Broken broken;
   if (!scene.column.is_round() || scene.column.given_size.empty()) return broken;
-  const double diameter = scene.column.is_tapered() ? narrowest_of(scene.column) : scene.column.given_size[0];
+  const double diameter = scene.column.is_tapered() ? scene.column.narrowest() : scene.column.given_size[0];
   for (std::size_t j = 0; j < scene.species.size(); ++j)
     if (too_narrow(diameter, scene.species[j]))
       broken.add({fmt::format("{:.4g}", scene.species[j].diameter), fmt::format("{:.4g}", diameter)},
@@ -68,9 +62,7 @@ Broken profile_of_another_height(const Scene& scene) {
 Broken profile_of_another_width(const Scene& scene) {
   const Column& column = scene.column;
   if (!column.is_tapered() || column.given_size.empty()) return {};
-  double widest = 0;
-  for (const auto& [height, diameter] : column.profile) widest = std::max(widest, diameter);
-  const double width = (column.around_axis() ? 2 : 1) * column.given_size[0];
+  const double widest = column.widest(), width = (column.around_axis() ? 2 : 1) * column.given_size[0];
   if (!is_uneven(widest, width)) return {};
   return Broken({fmt::format("{:.6g}", widest), fmt::format("{:.6g}", width)});
 }
@@ -82,10 +74,9 @@ Broken profile_too_narrow(const Scene& scene) {
   if (!column.is_tapered()) return {};
   double cell = column.size[0] / column.cells[0];
   if (column.is_round()) cell = std::max(cell, column.size[2] / column.cells[2]);
-  const double cells = narrowest_of(column) / cell;
+  const double cells = column.narrowest() / cell;
   if (cells > least * (1 - 1e-9)) return {};
-  return Broken(
-      {fmt::format("{:.4g}", narrowest_of(column)), fmt::format("{:.2g}", cells), fmt::format("{:g}", least)});
+  return Broken({fmt::format("{:.4g}", column.narrowest()), fmt::format("{:.2g}", cells), fmt::format("{:g}", least)});
 }
 
 Broken layers_with_corners(const Scene& scene) {
@@ -95,16 +86,11 @@ Broken layers_with_corners(const Scene& scene) {
   return broken;
 }
 
-double diameter_at(const Column& column, ColumnFace end) {
-  if (!column.is_tapered()) return column.size[0];
-  return (end == ColumnFace::top ? column.profile.back() : column.profile.front()).second;
-}
-
 /// Whether a part of the cross-section, a feed's or a jet's, has a corner beyond a round column.
 template <class Part>
 bool is_beyond_the_circle(const Column& column, const Part& part, ColumnFace end) {
   if (is_side(end)) return false;  // which another rule refuses
-  const double within = 0.5 * diameter_at(column, end) * (1 + 1e-12), centre = 0.5 * column.size[0];
+  const double within = 0.5 * column.diameter_at(end) * (1 + 1e-12), centre = 0.5 * column.size[0];
   if (column.around_axis()) return column.is_tapered() && !part.to.empty() && part.to[0] > within;
   if (!column.is_round() || part.from.size() != 2 || part.to.size() != 2) return false;
   for (const double x : {part.from[0], part.to[0]})
@@ -117,7 +103,7 @@ Broken feeds_beyond_the_circle(const Scene& scene) {
   Broken broken;
   for (std::size_t n = 0; n < scene.feeds.size(); ++n)
     if (const Feed& feed = scene.feeds[n]; is_beyond_the_circle(scene.column, feed, feed.at))
-      broken.add({feed.species, fmt::format("{:.4g}", diameter_at(scene.column, feed.at))},
+      broken.add({feed.species, fmt::format("{:.4g}", scene.column.diameter_at(feed.at))},
                  entry_of(scene, scene.feeds, n));
   return broken;
 }
@@ -133,7 +119,7 @@ Rule beyond_the_circle(const std::string& table, std::vector<Part> Scene::*parts
             Broken broken;
             for (std::size_t n = 0; n < (scene.*parts).size(); ++n)
               if (const Part& part = (scene.*parts)[n]; is_beyond_the_circle(scene.column, part, part.at))
-                broken.add({std::to_string(n + 1), fmt::format("{:.4g}", diameter_at(scene.column, part.at))}, n);
+                broken.add({std::to_string(n + 1), fmt::format("{:.4g}", scene.column.diameter_at(part.at))}, n);
             return broken;
           }};
 }

@@ -11,6 +11,10 @@ namespace {
 
 double disc(double diameter) { return std::numbers::pi / 4 * diameter * diameter; }
 
+bool is_narrower(const std::pair<double, double>& one, const std::pair<double, double>& other) {
+  return one.second < other.second;
+}
+
 /// Volume of a frustum from the first row of a part of a profile up to a share of the part, m3.
 double frustum(const std::pair<double, double>& low, const std::pair<double, double>& high, double share) {
   const double end = low.second + share * (high.second - low.second);
@@ -19,8 +23,8 @@ double frustum(const std::pair<double, double>& low, const std::pair<double, dou
 
 }  // namespace
 
-double Column::cross_section() const {
-  if (is_tapered()) return disc(profile.front().second);
+double Column::cross_section(ColumnFace end) const {
+  if (is_tapered()) return disc(diameter_at(end));
   const double square = size[0] * size[2];
   return is_round() ? std::numbers::pi / 4 * square : square;
 }
@@ -47,6 +51,17 @@ double Column::diameter_at(double height) const {
   return std::isfinite(least) ? least : profile.back().second;
 }
 
+double Column::narrowest() const { return std::min_element(profile.begin(), profile.end(), is_narrower)->second; }
+
+double Column::widest() const { return std::max_element(profile.begin(), profile.end(), is_narrower)->second; }
+
+double Column::contraction() const { return is_tapered() ? cross_section() / disc(narrowest()) : 1; }
+
+double Column::diameter_at(ColumnFace end) const {
+  if (!is_tapered()) return size[0];
+  return (end == ColumnFace::top ? profile.back() : profile.front()).second;
+}
+
 double Column::area_between(double low, double high) const {
   if (!is_tapered()) return cross_section();
   return cross_section() * (even_height(high) - even_height(low)) / (high - low);
@@ -54,9 +69,7 @@ double Column::area_between(double low, double high) const {
 
 double Column::filled_height(double even) const {
   if (!is_tapered()) return even;
-  double least = cross_section();
-  for (const auto& [height, diameter] : profile) least = std::min(least, disc(diameter));
-  double below = 0, above = even * cross_section() / least;
+  double below = 0, above = even * contraction();
   for (int n = 0; n < 100; ++n) {
     const double middle = 0.5 * (below + above);
     (even_height(middle) < even ? below : above) = middle;

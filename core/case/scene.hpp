@@ -37,8 +37,8 @@ struct Column {
   [[nodiscard]] bool is_round() const { return shape == ColumnShape::cylinder; }
   [[nodiscard]] bool around_axis() const { return shape == ColumnShape::axisymmetric; }
   [[nodiscard]] bool is_tapered() const { return !profile.empty(); }
-  /// Area of its cross-section, at the bottom, m2.
-  [[nodiscard]] double cross_section() const;
+  /// Area of its cross-section at an end, m2.
+  [[nodiscard]] double cross_section(ColumnFace end = ColumnFace::bottom) const;
   /// Volume below a height over cross_section(), m: the height that it would have in an even column. Above the top a
   /// tapered column is as wide as there.
   [[nodiscard]] double even_height(double height) const;
@@ -46,6 +46,12 @@ struct Column {
   [[nodiscard]] double filled_height(double even) const;
   /// Of a tapered one; the smaller at a step.
   [[nodiscard]] double diameter_at(double height) const;
+  /// Least and greatest diameter of a tapered one, and that at an end of a round one, m.
+  [[nodiscard]] double narrowest() const;
+  [[nodiscard]] double widest() const;
+  /// Cross-section at the bottom over the least.
+  [[nodiscard]] double contraction() const;
+  [[nodiscard]] double diameter_at(ColumnFace end) const;
   /// Mean over the heights between two of a round column, m2.
   [[nodiscard]] double area_between(double low, double high) const;
 };

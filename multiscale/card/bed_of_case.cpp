@@ -303,10 +303,9 @@ void add_expansion(const core::Scene& scene, BedOfCase& bed) {
 }  // namespace
 
 double least_velocity(const core::Column& column, double velocity) {
-  double widest = column.cross_section();
-  for (const auto& [height, diameter] : column.profile)
-    widest = std::max(widest, std::numbers::pi / 4 * diameter * diameter);
-  return velocity * column.cross_section() / widest;
+  if (!column.is_tapered()) return velocity;
+  const double narrowing = column.diameter_at(core::ColumnFace::bottom) / column.widest();
+  return velocity * narrowing * narrowing;
 }
 
 Fluidisation carried(const core::Scene& scene) {
