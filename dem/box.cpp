@@ -39,7 +39,8 @@ Vector Box::wrapped(Vector x) const {
 bool Box::within_side(const Place& sphere) const {
   if (!round) return true;
   const double radius = 0.5 * size[0], dx = sphere.x[0] - radius, dz = sphere.x[2] - radius;
-  return std::sqrt(dx * dx + dz * dz) + sphere.radius <= radius;
+  const double away = std::sqrt(dx * dx + dz * dz);
+  return side ? away <= side.reach(sphere.x[1], sphere.radius) : away + sphere.radius <= radius;
 }
 
 int Box::joined(const Plate& plate) {

@@ -14,6 +14,7 @@
 #endif
 
 #include "dem/particles.hpp"
+#include "dem/tapered_side.hpp"
 
 namespace polybed::dem {
 
@@ -111,6 +112,7 @@ struct Box {
   std::vector<Joint> joints;       ///< of the plates
   std::vector<double> curvatures;  ///< of contacts with round plates, 1/m: above 0 from inside, below 0 from outside
   bool round = false;              ///< its cross-section is the circle within its width and depth
+  TaperedSide side;                ///< of a round box whose diameter changes
   std::optional<Opening> opening;  ///< in the bottom; absent: it is whole
   bool open_top = false;           ///< particles leave through the top
   double shear_rate = 0;           ///< of Lees and Edwards: d v_x/d y, 1/s; then y is periodic

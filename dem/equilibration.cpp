@@ -82,7 +82,7 @@ class Metropolis {
     const Region& bounds = spheres_.bounds()[i];
     for (std::size_t k = 0; k < 3; ++k)
       if (x[k] < bounds.low[k] || x[k] > bounds.high[k]) return false;
-    if (bounds.round && !bounds.in_cylinder(x)) return false;
+    if (!bounds.within_side(x)) return false;
     for (std::size_t n = first_[i]; n < first_[i + 1]; ++n) {
       const Place& there = place_[std::size_t(neighbours_[n].other)];
       const Vector& shift = spheres_.shift(neighbours_[n].image);

@@ -24,22 +24,23 @@ constexpr std::uint64_t first_sequence = 1000;
 std::uint64_t sequence(std::size_t feed, std::uint64_t axis) { return first_sequence + 2 * feed + axis; }
 
 /// Where the centres of a feed's particles may be. They enter a hair away from the wall.
-std::pair<Vector, Vector> centres(const core::Feed& feed, const Box& box, double radius) {
+std::pair<Vector, Vector> centres(const core::Feed& feed, const core::Column& column, const Box& box, double radius) {
   constexpr double hair = 1 + 0x1p-20;
   Vector low{}, high = box.size;
   for (const std::size_t k : {0, 2}) {
     const std::size_t n = k / 2;
     const bool whole = n >= feed.from.size();
     if (whole && box.periodic[k]) continue;
-    low[k] = (whole ? 0 : feed.from[n]) + radius;
-    high[k] = std::max(low[k], (whole ? box.size[k] : feed.to[n]) - radius);
+    const double beside = box.side ? 0.5 * (box.size[k] - column.diameter_at(feed.at)) : 0;
+    low[k] = (whole ? beside : feed.from[n]) + radius;
+    high[k] = std::max(low[k], (whole ? box.size[k] - beside : feed.to[n]) - radius);
   }
   low[1] = high[1] = feed.at == core::ColumnFace::top ? box.size[1] - hair * radius : hair * radius;
   return {low, high};
 }
 
 double area_of(const core::Feed& feed, const core::Column& column) {
-  if (feed.from.empty()) return column.cross_section();
+  if (feed.from.empty()) return column.cross_section(feed.at);
   const auto width = [&](std::size_t n, std::size_t k) {
     return n < feed.from.size() ? feed.to[n] - feed.from[n] : column.size[k];
   };
@@ -54,7 +55,7 @@ Feeding::Feeding(const core::Scene& scene, const Materials& materials, const Box
     const auto found = std::find_if(materials.species().begin(), materials.species().end(),
                                     [&](const Species& s) { return s.name == feed.species; });
     const double radius = found->radius;
-    const auto [low, high] = centres(feed, box, radius);
+    const auto [low, high] = centres(feed, scene.column, box, radius);
     // The list is made when the fastest particles have moved by half of the skin: no more often because of feeds.
     feeds_.push_back({std::int32_t(found - materials.species().begin()), feed.at == core::ColumnFace::top,
                       feed.velocity, 0.5 * skin / feed.velocity, fluid::Ramp(feed.superficial_velocity),

@@ -17,6 +17,7 @@ Box without_shear(Box box) {
 Region of_centre(const Region& region, double radius, const Box& box) {
   constexpr double nowhere = std::numeric_limits<double>::infinity();
   Region bounds = region;
+  bounds.of_sphere = radius;
   for (std::size_t k = 0; k < 3; ++k) {
     const bool free = box.periodic[k] && region.low[k] <= 0 && region.high[k] >= box.size[k];
     bounds.low[k] = free ? -nowhere : region.low[k] + radius;
@@ -28,8 +29,16 @@ Region of_centre(const Region& region, double radius, const Box& box) {
 }  // namespace
 
 double Region::volume() const {
-  const double between = (high[0] - low[0]) * (high[1] - low[1]) * (high[2] - low[2]);
+  const Region box = even();
+  const double between = (high[0] - low[0]) * (box.high[1] - box.low[1]) * (high[2] - low[2]);
   return round ? std::numbers::pi / 4 * between : between;
+}
+
+Region Region::even() const {
+  Region box = *this;
+  if (side)
+    for (Vector* corner : {&box.low, &box.high}) (*corner)[1] = side.even_height((*corner)[1]);
+  return box;
 }
 
 double Region::distance_from_axis(const Vector& x) const {
@@ -37,7 +46,8 @@ double Region::distance_from_axis(const Vector& x) const {
   return std::sqrt(dx * dx + dz * dz);
 }
 
-void Region::move_into_cylinder(Vector& x) const {
+void Region::move_within_side(Vector& x) const {
+  if (side) return side.move_inside(x, of_sphere);
   const auto [dx, dz] = from_axis(x);
   const double away = distance_from_axis(x), beyond = away - radius();
   if (!(beyond > 0)) return;
@@ -46,14 +56,15 @@ void Region::move_into_cylinder(Vector& x) const {
 }
 
 /// Squares about the axis become circles: a point keeps its place along the side of its square.
-Vector Region::mapped_to_cylinder(const Vector& x) const {
+Vector Region::mapped_within_side(const Vector& x) const {
   const auto [dx, dz] = from_axis(x);
-  if (dx == 0 && dz == 0) return x;
+  const double height = side ? side.height_of(x[1]) : x[1], drawn_in = side ? side.narrowing(height) : 1;
+  if (dx == 0 && dz == 0) return {x[0], height, x[2]};
   const bool along_x = std::abs(dx) > std::abs(dz);
-  const double circle = along_x ? dx : dz;
+  const double circle = drawn_in * (along_x ? dx : dz);
   const double angle =
       along_x ? std::numbers::pi / 4 * (dz / dx) : std::numbers::pi / 2 - std::numbers::pi / 4 * (dx / dz);
-  return {x[0] - dx + circle * std::cos(angle), x[1], x[2] - dz + circle * std::sin(angle)};
+  return {x[0] - dx + circle * std::cos(angle), height, x[2] - dz + circle * std::sin(angle)};
 }
 
 HardSpheres::HardSpheres(const std::vector<Particle>& all, const std::vector<Region>& region, const Box& box,

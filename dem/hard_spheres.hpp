@@ -10,22 +10,29 @@
 #include "dem/contacts/materials.hpp"
 #include "dem/contacts/neighbours.hpp"
 #include "dem/particles.hpp"
+#include "dem/tapered_side.hpp"
 
 namespace polybed::dem {
 
 /// Where a particle may be as a whole, m; no limit along joined directions that it spans.
 struct Region {
   Vector low, high;
-  bool round = false;  ///< within the upright cylinder that fits between these corners; it is as wide as deep
+  bool round = false;    ///< within the upright cylinder that fits between these corners; it is as wide as deep
+  TaperedSide side{};    ///< instead of that cylinder
+  double of_sphere = 0;  ///< radius for which the tapered side leaves room: of bounds of a centre, m
 
   [[nodiscard]] double volume() const;
-  /// Whether a place between the corners lies within the cylinder.
-  [[nodiscard]] bool in_cylinder(const Vector& x) const { return distance_from_axis(x) <= radius(); }
-  /// Moves a place outside the cylinder to its side.
-  void move_into_cylinder(Vector& x) const;
-  /// Where a place between the corners goes as they are mapped to the cylinder, equal volumes to equal ones: the
-  /// concentric map of Shirley and Chiu (J. Graphics Tools 2 (3), 1997, 45).
-  [[nodiscard]] Vector mapped_to_cylinder(const Vector& x) const;
+  /// Whether a place between the corners lies within the side of a round one.
+  [[nodiscard]] bool within_side(const Vector& x) const {
+    return !round || distance_from_axis(x) <= (side ? side.reach(x[1], of_sphere) : radius());
+  }
+  /// Moves a place outside the side of a round one to it.
+  void move_within_side(Vector& x) const;
+  /// The box that places are drawn from which are then mapped into a round one: as high as its volume demands.
+  [[nodiscard]] Region even() const;
+  /// Where a place in that box goes as it is mapped to the round one, equal volumes to equal ones: the concentric map
+  /// of Shirley and Chiu (J. Graphics Tools 2 (3), 1997, 45), drawn in where the side is narrower.
+  [[nodiscard]] Vector mapped_within_side(const Vector& x) const;
 
  private:
   [[nodiscard]] double radius() const { return 0.5 * (high[0] - low[0]); }

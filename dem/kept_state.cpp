@@ -47,10 +47,11 @@ void require_particles(const std::vector<double>& numbers, std::size_t species, 
 }
 
 /// The centres of particles that a box may have left lie within the side of a round one.
-void require_within_side(const std::vector<double>& numbers, const Vector& size) {
-  const double radius = 0.5 * size[0];
+void require_within_side(const std::vector<double>& numbers, const Box& box) {
+  const double radius = 0.5 * box.size[0];
+  const auto most = [&](double y) { return box.side && y >= 0 ? box.side.reach(y, 0) : radius; };
   for (const double* p = numbers.data(); p != numbers.data() + numbers.size(); p += particle_width)
-    if (std::hypot(p[2] - radius, p[4] - radius) > radius)
+    if (std::hypot(p[2] - radius, p[4] - radius) > most(p[3]))
       core::refuse_checkpoint(fmt::format("particle {:.0f} lies outside the round column, at ({:g}, {:g}, {:g}) m",
                                           p[0], p[2], p[3], p[4]));
 }
@@ -190,8 +191,8 @@ KeptState read_state(const core::Checkpoint& checkpoint, Clock clock, const Kept
   core::on_first(ranks, [&] {
     particles = checkpoint.array("particles");
     contacts = checkpoint.array("contacts");
-    require_particles(particles, shape.materials.species().size(), shape.size);
-    if (shape.round) require_within_side(particles, shape.size);
+    require_particles(particles, shape.materials.species().size(), shape.box.size);
+    if (shape.box.round) require_within_side(particles, shape.box);
     require_contacts(contacts, std::size_t(shape.memory_size), particles);
     head = {double(particles.size()),
             double(contacts.size()),

@@ -7,6 +7,7 @@
 
 #include "core/numerics/ranks.hpp"
 #include "core/output/checkpoint.hpp"
+#include "dem/box.hpp"
 #include "dem/contacts/contacts.hpp"
 #include "dem/contacts/kept.hpp"
 #include "dem/contacts/materials.hpp"
@@ -44,9 +45,8 @@ struct KeptState {
 /// What the rows must fit.
 struct KeptShape {
   const Materials& materials;
-  Vector size;         ///< of the box, m
-  int memory_size;     ///< of a contact
-  bool round = false;  ///< whether the box is
+  const Box& box;
+  int memory_size;  ///< of a contact
 };
 /// Collective; only the first rank's checkpoint and clock are read. Throws core::FileError for what no run has.
 [[nodiscard]] KeptState read_state(const core::Checkpoint& checkpoint, Clock clock, const KeptShape& shape,

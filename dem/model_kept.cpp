@@ -66,8 +66,7 @@ Clock Model::checked_clock(const core::Checkpoint& checkpoint, bool same_run) co
 void Model::restore(const core::Checkpoint& checkpoint, bool same_run) {
   Clock first;
   core::on_first(ranks_.get(), [&] { first = checked_clock(checkpoint, same_run); });
-  KeptState state =
-      read_state(checkpoint, first, {materials_, box_.size, pairs_.memory_size, box_.round}, ranks_.get());
+  KeptState state = read_state(checkpoint, first, {materials_, box_, pairs_.memory_size}, ranks_.get());
   const Clock& clock = state.clock;
   box_.strain_before = same_run ? clock.strain_before : clock.strain;
   if (same_run) {

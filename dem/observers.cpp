@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include "core/numerics/messages.hpp"
@@ -37,14 +38,20 @@ std::vector<std::string> profile_names(const Model& model, const measures::Slabs
   return names;
 }
 
-/// Weight of the particles less that of the fluid that they displace, if there is one, over the area, Pa.
-double weight_of(const Model& model, const std::vector<double>& mass, double area) {
+/// Weight of the particles less that of the fluid that they displace, if there is one, over the local area, Pa: a
+/// sloping wall bears what the particles above it weigh, or presses from above.
+double weight_of(const Model& model, const measures::Bed& bed, double area) {
   double weight = 0;
-  for (std::size_t j = 0; j < mass.size(); ++j) {
+  for (std::size_t j = 0; j < bed.mass.size(); ++j) {
     const double displaced = model.coupling() == nullptr ? 0 : model.coupling()->flow().constants().density;
-    weight += mass[j] * (1 - displaced / model.materials().species()[j].density);
+    const double density = model.materials().species()[j].density;
+    const std::vector<double>& phi = bed.profile.fraction[j];
+    const double carried = bed.profile.areas.empty()
+                               ? bed.mass[j] / area
+                               : std::accumulate(phi.begin(), phi.end(), 0.0) * bed.profile.slab * density;
+    weight += carried * (1 - displaced / density);
   }
-  return weight * std::abs(model.gravity()[1]) / area;
+  return weight * std::abs(model.gravity()[1]);
 }
 
 std::vector<double> slab_centres(const measures::Slabs& slabs) {
@@ -201,7 +208,7 @@ void Observers::write_history(double time) {
     bed.mass.push_back(double(number[j]) * model_.materials().species()[j].mass);
   // Without a fluid nothing carries the bed but its bottom: there is no pressure drop.
   bed.pressure_drop = fluid_ ? fluid_->pressure_drop() : 0;
-  bed.buoyant_weight = weight_of(model_, bed.mass, slabs_.area);
+  bed.buoyant_weight = weight_of(model_, bed, slabs_.area);
   core::on_first(model_.ranks(), [&] {
     bed_height_ = measures::bed_height(bed.profile);
     files_->history.write_row(history_.row(bed, told(most_solids)));

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <numeric>
 
 #include "closures/sphere.hpp"
@@ -52,12 +51,10 @@ struct Group {
   Region region;
 };
 
-/// Height above which the particles are placed, m: the top of the walls inside, and of what is narrower than the widest
-/// part of a tapered column.
+/// Height above which the particles are placed, m: the top of the walls inside.
 double floor_of(const core::Scene& scene) {
   double top = 0;
-  for (const auto& walls : {scene.walls, core::walls_of_taper(scene.column)})
-    for (const core::InnerWall& wall : walls) top = std::max({top, wall.from[1], wall.to[1]});
+  for (const core::InnerWall& wall : scene.walls) top = std::max({top, wall.from[1], wall.to[1]});
   return top;
 }
 
@@ -76,12 +73,11 @@ double start_fraction(const core::BedPart& part) {
   return part.solids_fraction > 0 ? std::min(loose, part.solids_fraction) : loose;
 }
 
-/// Height that particles fill over a part's area at the solids fraction of the start, m.
+/// Height that particles fill over a part's area at the solids fraction of the start, m; in a tapered column if it were
+/// as wide as at the bottom.
 double height_of(const std::vector<std::int64_t>& numbers, const core::BedPart& part, const Materials& materials,
                  const core::Column& column) {
-  // Above the floor a tapered column is as wide as it gets.
-  const double area = part.area() * (column.is_tapered() ? std::numbers::pi / 4 * column.size[0] * column.size[0]
-                                                         : column.cross_section());
+  const double area = part.area() * column.cross_section();
   double height = 0;
   for (std::size_t j = 0; j < numbers.size(); ++j)
     height +=
@@ -99,16 +95,20 @@ std::vector<Group> groups_of(const core::Scene& scene, const Materials& material
     groups.push_back({numbers_in(part, materials, scene.column), {}});
     height.push_back(height_of(groups.back().numbers, part, materials, scene.column));
   }
-  const double floor = floor_of(scene);
+  const core::Column& column = scene.column;
+  const double floor = floor_of(scene), below = column.even_height(floor);
   std::vector<core::Extent> extents = core::stacked(parts, height);
+  for (core::Extent& one : extents)
+    one = {column.filled_height(below + one.low), column.filled_height(below + one.high)};
   // Those of a checkpoint come from anywhere in the box and take the places of these.
   if (scene.bed.start.kind == core::StartKind::random || scene.bed.start.kind == core::StartKind::checkpoint)
-    extents.assign(parts.size(), {0, box.size[1] - floor});
+    extents.assign(parts.size(), {floor, box.size[1]});
   for (std::size_t n = 0; n < parts.size(); ++n) {
     const core::BedPart& part = parts[n];
-    groups[n].region = {{part.from[0] * box.size[0], floor + extents[n].low, part.from[1] * box.size[2]},
-                        {part.to[0] * box.size[0], floor + extents[n].high, part.to[1] * box.size[2]},
-                        box.round};
+    groups[n].region = {{part.from[0] * box.size[0], extents[n].low, part.from[1] * box.size[2]},
+                        {part.to[0] * box.size[0], extents[n].high, part.to[1] * box.size[2]},
+                        box.round,
+                        box.side};
   }
   return groups;
 }
@@ -216,8 +216,8 @@ std::string no_room_for(const core::Scene& scene, const Materials& materials, co
     return fmt::format(
         "they fill {:.4g} m of the column's height at a solids fraction of {:.3g}, which is more than it has{}, "
         "{:.4g} m: enlarge column.size",
-        top - floor, start_fraction(core::start_parts(scene).front()),
-        floor > 0 ? " above the top of its narrow part or of [[wall]]" : "", box.size[1] - floor);
+        top - floor, start_fraction(core::start_parts(scene).front()), floor > 0 ? " above the top of [[wall]]" : "",
+        box.size[1] - floor);
   for (const Group& group : groups)
     if (std::string wrong = no_room_in(group, materials, box); !wrong.empty()) return wrong;
   return "";

@@ -67,7 +67,7 @@ void push_all(HardSpheres& spheres, const std::vector<Push>& pushes) {
   for (std::size_t i = 0; i < place.size(); ++i)
     for (std::size_t k = 0; k < 3; ++k) place[i].x[k] = std::clamp(place[i].x[k], bounds[i].low[k], bounds[i].high[k]);
   if (bounds.empty() || !bounds.front().round) return;
-  for (std::size_t i = 0; i < place.size(); ++i) bounds[i].move_into_cylinder(place[i].x);
+  for (std::size_t i = 0; i < place.size(); ++i) bounds[i].move_within_side(place[i].x);
 }
 
 double touching(HardSpheres& spheres, const Contacts::Pair& pair) {

@@ -35,13 +35,6 @@ const std::vector<core::Rule>& model_rules() {
        "column.shape = \"axisymmetric\": polybed tfm can run it, polybed dem cannot: particles go around the axis; use "
        "\"cylinder\"",
        [](const core::Scene& scene) { return core::broken_if(scene.column.around_axis()); }},
-      {{"column.profile", "fluid.name"},
-       "column.profile in a fluid: polybed tfm can run it, polybed dem cannot; set fluid.name = \"none\"",
-       [](const core::Scene& scene) { return core::broken_if(scene.column.is_tapered() && scene.fluid.present()); }},
-      {{"column.profile", "feed.species"},
-       "column.profile and [[feed]]: polybed tfm can run it, polybed dem cannot: particles would enter beside a narrow "
-       "end",
-       [](const core::Scene& scene) { return core::broken_if(scene.column.is_tapered() && !scene.feeds.empty()); }},
       {{"feed.at"},
        "feed.at = \"{}\": polybed tfm can run it, polybed dem cannot: particles enter through the bottom or the top",
        [](const core::Scene& scene) {

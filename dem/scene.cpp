@@ -63,7 +63,7 @@ double speed_in_fluid(const core::Scene& scene, double first) {
   for (const core::Species& s : scene.species)
     fastest = std::max(fastest, closures::terminal_velocity(drag, s.diameter, s.density - fluid.density, fluid.density,
                                                             fluid.viscosity, scene.column.gravity));
-  for (const auto& [t, u] : scene.inlet.superficial_velocity) inflow = std::max(inflow, u);
+  for (const auto& [t, u] : scene.inlet.superficial_velocity) inflow = std::max(inflow, u * scene.column.contraction());
   for (const core::Jet& jet : scene.jets)
     for (const auto& [t, u] : jet.superficial_velocity) inflow = std::max(inflow, u);
   // Channels through a bed: 3 times the velocity between packed particles was met by particles of a settled bed.
@@ -112,6 +112,7 @@ Box box_of(const core::Scene& scene) {
                   column.dimensions == 2 || column.sides == core::Boundary::periodic};
   box.shear_rate = scene.column.shear_rate;
   box.round = column.is_round();
+  if (column.is_tapered()) box.side = TaperedSide(column);
   if (scene.dem.opening)
     box.opening = Opening{0.5 * box.size[0], 0.5 * box.size[2], 0.5 * *scene.dem.opening, column.dimensions == 3};
   box.open_top = is_open_at_top(scene);

@@ -127,8 +127,9 @@ double settling_time(const core::Scene& scene, const Materials& materials, const
     const Species& s = materials.species()[j];
     if (numbers[j] == 0 || s.density == density) continue;
     const double room = s.density > density ? height : box.size[1];  // what is lighter rises to the top of the column
-    const double way = std::max(0.0, room - solids / scene.bed.solids_fraction);
-    slowest = std::max(slowest, way / (speed_alone(scene, s) * std::pow(1 - solids / room, hindrance)));
+    const double way = std::max(0.0, room - scene.column.filled_height(solids / scene.bed.solids_fraction));
+    const double clear = 1 - solids / scene.column.even_height(room);
+    slowest = std::max(slowest, way / (speed_alone(scene, s) * std::pow(clear, hindrance)));
   }
   return in_fluid * (dry + slowest);
 }

@@ -80,9 +80,9 @@ void spread_between_corners(const std::vector<Particle*>& particles, const Regio
 }  // namespace
 
 void spread(std::vector<Particle*>& particles, const Region& region, std::uint64_t seed) {
-  spread_between_corners(particles, region, seed);
+  spread_between_corners(particles, region.even(), seed);
   if (!region.round) return;
-  for (Particle* p : particles) p->place.x = region.mapped_to_cylinder(p->place.x);
+  for (Particle* p : particles) p->place.x = region.mapped_within_side(p->place.x);
 }
 
 }  // namespace polybed::dem

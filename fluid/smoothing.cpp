@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <map>
 #include <numbers>
 
 #include "core/numerics/metric.hpp"
@@ -146,31 +148,41 @@ Smoothing::Sweeps Smoothing::sweeps(const core::Grid& grid, const core::Box& box
   return result;
 }
 
-/// Along each line with its own coefficients; half of x before the others, half behind.
+/// Lines with the same coefficients, up to round-off, are smoothed together. Half of x comes before the others and half
+/// behind, in a tapered column half of y within that.
 Smoothing::Sweeps Smoothing::open_sweeps(const core::Grid& grid, int of, const core::Box& box, double time) {
   const OpenEntries entries(grid, of);
   Sweeps result;
   const auto add = [&](int axis, int share_of_steps) {
-    const auto a = std::size_t(axis), across = std::size_t(2 - axis);
+    const auto a = std::size_t(axis);
     const int count = box.hi[a] - box.lo[a];
     if (count < 2) return;
     const double lambda = time / steps / (grid.spacing[a] * grid.spacing[a]);
     const core::Index s = grid.stride(axis);
-    for (int n = box.lo[across]; n < box.hi[across]; ++n) {
-      std::array<int, 3> first = box.lo;
-      first[across] = n;
-      std::vector<core::Index> starts;
-      for (; first[1] < box.hi[1]; ++first[1]) starts.push_back(grid.index(first[0], first[1], first[2]));
-      std::vector<double> volume, open{0};
-      for (int i = 0; i < count; ++i) volume.push_back(entries.volume(starts[0] + i * s));
-      for (int i = 1; i < count; ++i) open.push_back(entries.between(starts[0] + i * s, axis, s));
-      result.push_back({axis, LineDiffusion(volume, open, lambda, share_of_steps), s, std::move(starts)});
-    }
+    std::map<std::vector<std::int64_t>, std::size_t> alike;
+    core::Box first = box;
+    first.hi[a] = first.lo[a] + 1;
+    core::for_each_row(grid, first, [&](core::Index begin, core::Index end) {
+      for (core::Index c = begin; c < end; ++c) {
+        std::vector<double> volume, open{0};
+        for (int i = 0; i < count; ++i) volume.push_back(entries.volume(c + i * s));
+        for (int i = 1; i < count; ++i) open.push_back(entries.between(c + i * s, axis, s));
+        std::vector<std::int64_t> key;
+        for (const auto* part : {&volume, &open})
+          for (const double share : *part) key.push_back(std::llround(share * 1e14));
+        const auto [known, is_new] = alike.try_emplace(std::move(key), result.size());
+        if (is_new) result.push_back({axis, LineDiffusion(volume, open, lambda, share_of_steps), s, {}});
+        result[known->second].starts.push_back(c);
+      }
+    });
   };
+  const bool tapered = grid.metric->tapered();
   add(0, steps / 2);
+  if (tapered) add(1, steps / 2);
   for (Sweep& upright : sweeps(grid, box, time))
-    if (upright.axis == 1) result.push_back(std::move(upright));
+    if (upright.axis == 1 && !tapered) result.push_back(std::move(upright));
   add(2, steps);
+  if (tapered) add(1, steps / 2);
   add(0, steps / 2);
   return result;
 }

@@ -60,7 +60,8 @@ class LineDiffusion {
 ///
 /// In a round column flux passes the open shares of faces, entries weigh with their open volumes, and lines along x and
 /// z do not commute: half of the steps along x come before those along z and half behind, so that the operator is
-/// symmetric in the product that is weighed by volume. There faces that the wall closes are held.
+/// symmetric in the product that is weighed by volume; likewise half of y where the diameter changes. There faces that
+/// the wall closes are held.
 ///
 /// smooth_cells(div F) = div(smooth_faces(F)) along joined axes, and for the component of F along a joined axis
 /// whatever the other axes are. For the component normal to walls both have the same sum, but they agree only where the

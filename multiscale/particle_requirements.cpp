@@ -102,6 +102,7 @@ double courant_of(const core::Scene& scene, double dt) {
     for (const auto& [t, u] : velocity) inflow = std::max(inflow, std::abs(u));
   };
   see(scene.inlet.superficial_velocity);
+  inflow *= scene.column.contraction();
   for (const core::Jet& jet : scene.jets) see(jet.superficial_velocity);
   const core::Grid grid = core::grid_of(scene.column, nullptr);
   const double convected = inflow / (1 - scene.bed.solids_fraction) * dt / grid.smallest_spacing();

@@ -134,34 +134,27 @@ Broken long_cells_in_a_cylinder(const Scene& scene) {
 }
 
 std::vector<Rule> profile_rules() {
-  return {
-      {{"column.profile", "column.shape"},
-       "column.profile is for round columns: use column.shape = \"axisymmetric\" or \"cylinder\"",
-       [](const Scene& scene) {
-         return broken_if(scene.column.is_tapered() && scene.column.shape == ColumnShape::box);
-       },
-       true},
-      {{"column.profile", "column.size"},
-       "column.profile goes from {} to {} m: from 0 to the height of the column, {} m",
-       profile_of_another_height,
-       true},
-      {{"column.profile"},
-       "column.profile: too many pairs at {} m: a step inside has two, each end has one",
-       profile_unsteady,
-       true},
-      {{"column.profile", "column.size", "column.shape"},
-       "column.profile is {} m in diameter where it is widest, column.size {} m: make them equal",
-       profile_of_another_width,
-       true},
-      {{"column.profile", "bed.start"},
-       "column.profile and bed.start = \"random\" cannot be combined yet: particles would be placed beside the narrow "
-       "part; use \"mixed\"",
-       [](const Scene& scene) {
-         return broken_if(scene.column.is_tapered() && scene.bed.start.kind == StartKind::random);
-       }},
-      {{"column.profile", "column.cells", "column.size"},
-       "column.profile: {} m at its narrowest are {} cells, at least {}: take more cells in column.cells",
-       profile_too_narrow}};
+  return {{{"column.profile", "column.shape"},
+           "column.profile is for round columns: use column.shape = \"axisymmetric\" or \"cylinder\"",
+           [](const Scene& scene) {
+             return broken_if(scene.column.is_tapered() && scene.column.shape == ColumnShape::box);
+           },
+           true},
+          {{"column.profile", "column.size"},
+           "column.profile goes from {} to {} m: from 0 to the height of the column, {} m",
+           profile_of_another_height,
+           true},
+          {{"column.profile"},
+           "column.profile: too many pairs at {} m: a step inside has two, each end has one",
+           profile_unsteady,
+           true},
+          {{"column.profile", "column.size", "column.shape"},
+           "column.profile is {} m in diameter where it is widest, column.size {} m: make them equal",
+           profile_of_another_width,
+           true},
+          {{"column.profile", "column.cells", "column.size"},
+           "column.profile: {} m at its narrowest are {} cells, at least {}: take more cells in column.cells",
+           profile_too_narrow}};
 }
 
 std::vector<Rule> round_column_rules() {

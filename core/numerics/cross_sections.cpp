@@ -244,17 +244,6 @@ void Sections::set_wall(const std::vector<double>& below, const std::vector<doub
     }
 }
 
-/// Radius just above (1) or below (-1) a height.
-double radius_at(const Taper& taper, double height, int side) {
-  for (std::size_t n = 1; n < taper.size(); ++n) {
-    const auto& [y0, d0] = taper[n - 1];
-    const auto& [y1, d1] = taper[n];
-    const bool here = side > 0 ? height >= y0 && height < y1 : height > y0 && height <= y1;
-    if (here) return 0.5 * (d0 + (d1 - d0) * (height - y0) / (y1 - y0));
-  }
-  return 0.5 * (height > taper.front().first ? taper.back() : taper.front()).second;
-}
-
 /// Heights from `low` to `high` between which the wall is straight and passes no step of the grid.
 std::vector<double> straight_parts(const Taper& taper, const std::vector<double>& steps, double low, double high) {
   std::vector<double> heights{low, high};
@@ -321,6 +310,16 @@ std::vector<double> level_between(const Sections& sections, double radius, const
 }
 
 }  // namespace
+
+double radius_at(const Taper& taper, double height, int side) {
+  for (std::size_t n = 1; n < taper.size(); ++n) {
+    const auto& [y0, d0] = taper[n - 1];
+    const auto& [y1, d1] = taper[n];
+    const bool here = side > 0 ? height >= y0 && height < y1 : height > y0 && height <= y1;
+    if (here) return 0.5 * (d0 + (d1 - d0) * (height - y0) / (y1 - y0));
+  }
+  return 0.5 * (height > taper.front().first ? taper.back() : taper.front()).second;
+}
 
 std::vector<CrossSection> cross_sections(const Grid& column, bool rings, const Taper& taper) {
   const Sections sections(column, rings);

@@ -10,4 +10,7 @@ namespace polybed::core {
 /// faces alone count. \param column  all of it, as wide as its largest diameter  \param rings  about the low end along x
 [[nodiscard]] std::vector<CrossSection> cross_sections(const Grid& column, bool rings, const Taper& taper);
 
+/// Radius of a tapered column just above (side 1) or below (-1) a height, m.
+[[nodiscard]] double radius_at(const Taper& taper, double height, int side);
+
 }  // namespace polybed::core

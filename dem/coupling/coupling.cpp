@@ -111,7 +111,7 @@ Coupling::Coupling(const core::Scene& scene, const Materials& materials, std::sh
       sides_(scene, materials, flow_.constants().density, flow_.constants().viscosity, dt, every_of(scene) * dt),
       phase_(flow_.grid(), has_inertia()),
       scatter_(core::whole_column(flow_.grid()), flow_.grid(), materials, has_inertia(), volume, speed),
-      gather_(core::whole_column(flow_.grid()), diameters(materials)),
+      gather_(core::whole_column(flow_.grid()), diameters(materials), scatter_.round()),
       motion_(materials, flow_.constants().density, gravity_of(scene), units.force, units.energy, scene.dem.ledger),
       every_(every_of(scene)),
       held_(scene.bed.held),
@@ -259,6 +259,7 @@ void Coupling::couple_two_way(Particles& particles) {
   core::FaceField change = flow_.velocity_change(), push = flow_.gradient_change(), carried;
   if (phase_.added_mass()) carried = flow_.convected();
   for (core::FaceField* field : {&change, &push, &carried}) smooth(*field);
+  slip(change);
   if (exchange_) here({&change, &push, &carried});
   const FluidChange all{change, push, phase_.added_mass() ? &carried : nullptr};
   if (gather_.round())

@@ -2,9 +2,11 @@
 #include <algorithm>
 
 #include "core/numerics/blocks.hpp"
+#include "core/numerics/metric.hpp"
 #include "dem/coupling/coupling.hpp"
 #include "dem/outflow.hpp"
 #include "dem/parallel/exchange.hpp"
+#include "fluid/convection.hpp"
 #include "fluid/vorticity.hpp"
 
 namespace polybed::dem {
@@ -28,6 +30,15 @@ void Coupling::smooth_sums() {
     smooth(*field);
 }
 
+/// Along a sloping wall, which is stairs of cells: on the faces that it closes particles see the upright velocity of
+/// the open ones beside them, or what lies along it would feel half of the flow.
+void Coupling::slip(core::FaceField& velocity) const {
+  const core::Grid& grid = flow_.grid();
+  if (!grid.metric || !grid.metric->tapered()) return;
+  for (int axis = 0; axis < grid.dimensions; ++axis) flow_.boundaries().join(velocity[1], axis);
+  velocity[1] = fluid::slipping(grid, flow_.boundaries(), velocity[1], 1);
+}
+
 /// The fields as particles see them.
 void Coupling::take_fields() {
   if (exchange_) {  // never with a kernel of diffusion
@@ -38,6 +49,7 @@ void Coupling::take_fields() {
   smooth(velocity);
   smooth(gradient);
   if (sides_.needs_vorticity()) find_vorticity(velocity, vorticity_);
+  slip(velocity);
   gather_.take(fraction_, velocity, gradient);
   if (own_) own_->take(fraction_);
   if (sides_.needs_vorticity()) gather_.take_vorticity(vorticity_);
@@ -93,10 +105,12 @@ void Coupling::let_go(const Outflow& outflow, const Particles& particles) {
 
 /// What this rank's particles see of the fluid.
 void Coupling::fetch() {
+  core::FaceField velocity = flow_.state().velocity;
+  slip(velocity);
   std::vector<std::pair<const Field*, Field*>> fields;
   for (std::size_t j = 0; j < fraction_.size(); ++j) fields.push_back({&fraction_[j], &fraction_here_[j]});
   for (std::size_t a = 0; a < std::size_t(flow_.grid().dimensions); ++a) {
-    fields.push_back({&flow_.state().velocity[a], &velocity_here_[a]});
+    fields.push_back({&velocity[a], &velocity_here_[a]});
     fields.push_back({&flow_.gradient()[a], &gradient_here_[a]});
   }
   for (std::size_t k = 0; k < 3 && sides_.needs_vorticity(); ++k) {

@@ -2,8 +2,8 @@
 
 namespace polybed::dem {
 
-Gather::Gather(const core::Grid& grid, std::vector<double> diameter)
-    : weights_(grid), diameter_(std::move(diameter)), width_(3 + diameter_.size()), round_(round_weights(grid)) {
+Gather::Gather(const core::Grid& grid, std::vector<double> diameter, std::shared_ptr<const RoundWeights> round)
+    : weights_(grid), diameter_(std::move(diameter)), width_(3 + diameter_.size()), round_(std::move(round)) {
   cells_.resize(grid.padded_size() * width_);
   for (int axis = 0; axis < grid.dimensions; ++axis) faces_[std::size_t(axis)].resize(grid.padded_size());
 }

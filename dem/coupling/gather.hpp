@@ -26,7 +26,10 @@ struct Stream {
 
 class Gather {
  public:
-  Gather(const core::Grid& grid, std::vector<double> diameter);
+  /// \param round  weights of a round column: null in a box
+  Gather(const core::Grid& grid, std::vector<double> diameter, std::shared_ptr<const RoundWeights> round);
+  Gather(const core::Grid& grid, std::vector<double> diameter)
+      : Gather(grid, std::move(diameter), round_weights(grid)) {}
 
   /// Lays the fields out side by side. \param fraction  phi_j, [species][cell]
   void take(const std::vector<core::Field>& fraction, const core::FaceField& velocity, const core::FaceField& gradient);

@@ -45,18 +45,21 @@ double Coupling::pressure_drop() const {
   double sum = 0;
   core::with_metric(grid, [&](const auto& metric) {
     const auto add_row = [&](int j, double share) {
+      const double whole = core::open_cells_of_layer(grid, grid.before[1] + j);
       core::for_each_row(grid, {0, j, 0}, {grid.cells[0], j + 1, grid.cells[2]}, [&](Index begin, Index end) {
-        for (Index c = begin; c < end; ++c) sum += share * metric.volume(c) * p[std::size_t(c)];
+        for (Index c = begin; c < end; ++c) sum += share / whole * metric.volume(c) * p[std::size_t(c)];
       });
     };
-    for (const int side : {0, 1})
+    for (const int side : {0, 1}) {
+      const double whole = core::open_faces_below(grid, side * grid.column_cells(1));
       fluid::for_each_boundary_row(grid, 1, side, [&](Index begin, Index end) {
-        for (Index c = begin; c < end; ++c) sum += h * metric.open(1, c) * at_ends_[std::size_t(c)];
+        for (Index c = begin; c < end; ++c) sum += h / whole * metric.open(1, c) * at_ends_[std::size_t(c)];
       });
+    }
     if (grid.ends(1, 0)) add_row(0, 1);
     if (grid.ends(1, 1)) add_row(grid.cells[1] - 1, -at_top);
   });
-  return core::sum_of_ranks(grid, sum) / core::open_cells_of_layer(grid);
+  return core::sum_of_ranks(grid, sum);
 }
 
 }  // namespace polybed::dem

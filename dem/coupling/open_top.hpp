@@ -24,10 +24,9 @@ class OpenTop {
   [[nodiscard]] double inside(const Place& place) const {
     return measures::sphere_volume_below(place.radius, place.x[1], height_) / closures::sphere_volume(place.radius);
   }
-  /// Removes its shares on faces beyond the top. \param faces  its line of them, along y
-  void drop_beyond(const Place& place, Line& faces) const {
-    const double beyond = (place.x[1] - height_) / spacing_;
-    if (beyond > 0) faces.w = {std::max(0.0, 1 - beyond), 0};
+  /// What is left of its shares on faces along y without those beyond the top.
+  [[nodiscard]] double on_faces(const Place& place) const {
+    return std::clamp(1 - (place.x[1] - height_) / spacing_, 0.0, 1.0);
   }
 
  private:

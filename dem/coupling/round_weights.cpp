@@ -1,8 +1,9 @@
 #include "dem/coupling/round_weights.hpp"
 
 #include <limits>
+#include <span>
 
-#include "core/numerics/metric.hpp"
+#include "core/numerics/cross_sections.hpp"
 
 namespace polybed::dem {
 
@@ -11,106 +12,140 @@ namespace {
 /// Farther from the wall, in cells, g = 1: there cells are whole, and so are those around them.
 constexpr int cells_to_fit = 3;
 
-/// Places along each axis of a cell by which g is fitted.
-constexpr int points = 16;
+/// Places along both horizontal axes of a cell by which g is fitted: where all layers are alike, and at the heights at
+/// which those of a tapered column are looked at, each with its own, so that a straight wall is not met at few places.
+constexpr std::array<int, 1> points{16};
+constexpr std::array<int, 3> points_of_tapered{4, 6, 8};
 
-/// V of the entries of a layer in whole cells; 0 where nothing of either cell is open.
-std::vector<double> volumes(const core::CrossSection& section, int of) {
-  const auto theta = [&](int i, int k) {
+/// V of the entries in whole cells, from the bottom; 0 where nothing of either cell is open.
+std::vector<double> volumes(const core::Grid& grid, int of, int layers) {
+  const core::Metric& metric = *grid.metric;
+  const auto theta = [&](int i, int j, int k) {
+    const core::CrossSection& section = metric.layer(j);
     const bool inside = i >= 0 && i < section.width && k >= 0 && k < section.depth;
-    return inside ? section.volume[section.at(i, k)] : 0.0;
+    return inside && (layers == 1 || (j >= 0 && j < grid.cells[1])) ? section.volume[section.at(i, k)] : 0.0;
   };
-  const int nx = section.width + (of == 0 ? 1 : 0), nz = section.depth + (of == 2 ? 1 : 0);
   std::vector<double> volume;
-  for (int k = 0; k < nz; ++k)
-    for (int i = 0; i < nx; ++i)
-      volume.push_back(of < 0 ? theta(i, k)
-                              : 0.5 * (theta(i, k) + theta(i - (of == 0 ? 1 : 0), k - (of == 2 ? 1 : 0))));
+  for (int j = 0; j < layers; ++j)
+    for (int k = 0; k < grid.cells[2] + (of == 2 ? 1 : 0); ++k)
+      for (int i = 0; i < grid.cells[0] + (of == 0 ? 1 : 0); ++i) {
+        const double low = of == 0 ? theta(i - 1, j, k) : of == 1 ? theta(i, j - 1, k) : theta(i, j, k - 1);
+        volume.push_back(of < 0 ? theta(i, j, k) : 0.5 * (theta(i, j, k) + low));
+      }
   return volume;
+}
+
+/// Of a column, m; the smaller at a step.
+double radius_of(const core::Grid& grid, double height) {
+  const core::Taper& taper = grid.metric->taper;
+  if (taper.empty()) return 0.5 * grid.cells[0] * grid.spacing[0];
+  return std::min(core::radius_at(taper, height, 1), core::radius_at(taper, height, -1));
 }
 
 }  // namespace
 
-LayerWeights::LayerWeights(const core::Grid& grid, int of)
-    : count_{grid.cells[0] + (of == 0 ? 1 : 0), grid.cells[2] + (of == 2 ? 1 : 0)},
-      per_spacing_{1 / grid.spacing[0], 1 / grid.spacing[2]},
-      offset_{of == 0 ? 0 : 0.5, of == 2 ? 0 : 0.5},
-      radius_(0.5 * grid.cells[0] * grid.spacing[0]) {
-  const std::vector<double> volume = volumes(grid.metric->layers.front(), of);
-  for (int k = 0; k < count_[1]; ++k)
-    for (int i = 0; i < count_[0]; ++i) {
-      const std::size_t to = taker(volume, i, k), row = std::size_t(count_[0]);
-      const auto x = core::Index(to % row) + core::Grid::halo, z = core::Index(to / row) + core::Grid::halo;
-      entries_.push_back({to, x * grid.stride(0) + z * grid.stride(2), 0});
-    }
-  fit(volume);
+EntryWeights::EntryWeights(const core::Grid& grid, int of)
+    : alike_(!grid.metric->tapered()), lift_(grid.stride(1)), radius_(0.5 * grid.cells[0] * grid.spacing[0]) {
+  for (int a = 0; a < 3; ++a) {
+    count_[std::size_t(a)] = grid.cells[std::size_t(a)] + (of == a ? 1 : 0);
+    per_spacing_[std::size_t(a)] = 1 / grid.spacing[std::size_t(a)];
+    offset_[std::size_t(a)] = of == a ? 0 : 0.5;
+  }
+  const std::vector<double> volume = volumes(grid, of, int(layers()));
+  for (int j = 0; j < int(layers()); ++j)
+    for (int k = 0; k < count_[2]; ++k)
+      for (int i = 0; i < count_[0]; ++i) {
+        const std::size_t to = taker(volume, i, j, k), row = std::size_t(count_[0]),
+                          layer = row * std::size_t(count_[2]);
+        entries_.push_back({to, grid.index(int(to % row), int(to / layer), int(to % layer / row)), 0});
+      }
+  fit(grid, volume);
 }
 
 /// Of an entry from the axis of the column, m.
-double LayerWeights::distance(int i, int k) const {
-  return std::hypot((i + offset_[0]) / per_spacing_[0] - radius_, (k + offset_[1]) / per_spacing_[1] - radius_);
+double EntryWeights::distance(int i, int k) const {
+  return std::hypot((i + offset_[0]) / per_spacing_[0] - radius_, (k + offset_[2]) / per_spacing_[2] - radius_);
 }
 
-/// Which entry gets what stands on another: itself where it is open, else of the open ones in the nearest ring around
-/// it the one nearest to the axis, so that mirror images go to mirror images.
-std::size_t LayerWeights::taker(const std::vector<double>& volume, int i, int k) const {
-  const auto entry = [this](int x, int z) { return std::size_t(x) + std::size_t(count_[0]) * std::size_t(z); };
-  std::size_t found = entry(i, k);
+/// Which entry gets what stands on another: itself where it is open, the one above or below it where that is, else of
+/// the open ones in the nearest ring around it the one nearest to the axis, so that mirror images go to mirror images.
+std::size_t EntryWeights::taker(const std::vector<double>& volume, int i, int layer, int k) const {
+  const auto of = [&](int x, int j, int z) { return entry(std::size_t(x), std::size_t(j), std::size_t(z)); };
+  for (const int j : {layer, layer + 1, layer - 1})
+    if (j >= 0 && j < int(layers()) && volume[of(i, j, k)] > 0) return of(i, j, k);
+  std::size_t found = of(i, layer, k);
   for (int ring = 1; !(volume[found] > 0); ++ring) {
     double least = std::numeric_limits<double>::infinity();
-    for (int z = std::max(k - ring, 0); z <= std::min(k + ring, count_[1] - 1); ++z)
-      for (int x = std::max(i - ring, 0); x <= std::min(i + ring, count_[0] - 1); ++x)
-        if (volume[entry(x, z)] > 0 && distance(x, z) < least) {
-          least = distance(x, z);
-          found = entry(x, z);
-        }
+    for (int z = std::max(k - ring, 0); z <= std::min(k + ring, count_[2] - 1); ++z)
+      for (int x = std::max(i - ring, 0); x <= std::min(i + ring, count_[0] - 1); ++x) {
+        // Of two at one distance from the axis the nearer one.
+        const double away = distance(x, z) + 1e-6 * radius_ * std::hypot(x - i, z - k);
+        if (!(volume[of(x, layer, z)] > 0) || away >= least) continue;
+        least = away;
+        found = of(x, layer, z);
+      }
   }
   return found;
 }
 
-/// Places that lie evenly over the cross-section, as far as they touch entries whose weight is fitted.
-std::vector<LayerWeights::Around> LayerWeights::places_to_fit() const {
-  const double hx = 1 / per_spacing_[0], hz = 1 / per_spacing_[1];
-  const double inner = radius_ - (cells_to_fit + 2) * std::max(hx, hz);
-  const int nx = points * int(std::lround(2 * radius_ / hx)), nz = points * int(std::lround(2 * radius_ / hz));
-  std::vector<Around> places;
-  for (int k = 0; k < nz; ++k)
-    for (int i = 0; i < nx; ++i) {
-      const double x = (i + 0.5) * hx / points, z = (k + 0.5) * hz / points;
-      const double away = std::hypot(x - radius_, z - radius_);
-      if (away >= inner && away <= radius_) places.push_back(find(x, z));
-    }
-  return places;
+/// The mirror image of an entry that lies in the quarter of low x and z.
+std::size_t EntryWeights::in_quarter(std::size_t n) const {
+  const auto row = std::size_t(count_[0]), layer = row * std::size_t(count_[2]);
+  const std::size_t i = n % row, k = n % layer / row;
+  return entry(std::min(i, row - 1 - i), n / layer, std::min(k, std::size_t(count_[2]) - 1 - k));
 }
 
-/// Volumes, in cells, that particles fill which are at such places.
-std::vector<double> LayerWeights::filled(const std::vector<Around>& places, const std::vector<double>& weight) const {
-  std::vector<double> volume(weight.size(), 0.0);
-  for (const Around& around : places) {
-    double sum = 0;
-    for (std::size_t n = 0; n < 4; ++n) sum += around.w[n] * weight[entries_[around.entry[n]].taker];
-    for (std::size_t n = 0; n < 4; ++n) {
-      const std::size_t to = entries_[around.entry[n]].taker;
-      volume[to] += around.w[n] * weight[to] / (sum * points * points);
+/// Calls body(around, share of a cell's volume) for places that lie evenly in a quarter of the column, as far as they
+/// touch entries whose weight is fitted.
+template <class Body>
+void EntryWeights::for_each_place(const core::Grid& grid, Body&& body) const {
+  const double hx = grid.spacing[0], hz = grid.spacing[2];
+  const auto layer = [&](int j, std::span<const int> all) {
+    const auto heights = double(all.size());
+    for (std::size_t m = 0; m < all.size(); ++m) {
+      const int n = all[m];
+      const double y = (j + (double(m) + 0.5) / heights) * grid.spacing[1], radius = radius_of(grid, y);
+      const double inner = alike_ ? radius - (cells_to_fit + 2) * std::max(hx, hz) : 0;
+      for (int k = 0; 2 * k < n * grid.cells[2]; ++k)
+        for (int i = 0; 2 * i < n * grid.cells[0]; ++i) {
+          const double x = (i + 0.5) * hx / n, z = (k + 0.5) * hz / n, away = std::hypot(x - radius_, z - radius_);
+          if (away >= inner && away <= radius) body(find({x, y, z}), 1 / (heights * n * n));
+        }
     }
+  };
+  if (alike_) return layer(0, points);
+  for (int j = 0; j < grid.cells[1]; ++j) layer(j, points_of_tapered);
+}
+
+/// g of the entries of the quarter, and their mirror images'. Each round multiplies it by the volume of an entry over
+/// what evenly placed particles fill of it.
+void EntryWeights::fit(const core::Grid& grid, const std::vector<double>& volume) {
+  const int rounds = alike_ ? 20 : 10;
+  const double inner = alike_ ? radius_ - cells_to_fit / std::min(per_spacing_[0], per_spacing_[2]) : -1;
+  std::vector<std::size_t> image(volume.size());
+  std::vector<double> weight(volume.size(), 0.0), whole(volume.size(), 0.0), filled(volume.size());
+  for (std::size_t e = 0; e < volume.size(); ++e) {
+    image[e] = in_quarter(entries_[e].taker);
+    weight[e] = volume[in_quarter(e)];
+    whole[in_quarter(e)] += 0.25 * weight[e];
   }
-  return volume;
-}
-
-void LayerWeights::fit(const std::vector<double>& volume) {
-  constexpr int rounds = 20;  // within 2 % of even then, in columns of 2 to 40 cells
-  const double inner = radius_ - cells_to_fit / std::min(per_spacing_[0], per_spacing_[1]);
-  const std::vector<Around> places = places_to_fit();
-  std::vector<double> weight = volume;
   std::vector<bool> fitted;
-  for (int k = 0; k < count_[1]; ++k)
-    for (int i = 0; i < count_[0]; ++i) fitted.push_back(distance(i, k) > inner);
+  for (std::size_t e = 0; e < volume.size(); ++e)
+    fitted.push_back(distance(int(e % std::size_t(count_[0])), int(e / std::size_t(count_[0])) % count_[2]) > inner);
   for (int round = 0; round < rounds; ++round) {
-    const std::vector<double> found = filled(places, weight);
-    for (std::size_t e = 0; e < weight.size(); ++e)
-      if (fitted[e] && found[e] > 0) weight[e] *= volume[e] / found[e];
+    std::fill(filled.begin(), filled.end(), 0.0);
+    for_each_place(grid, [&](const Around& around, double part) {
+      double sum = 0;
+      for (std::size_t n = 0; n < 8; ++n) sum += around.w[n] * weight[image[around.entry[n]]];
+      for (std::size_t n = 0; n < 8; ++n) {
+        const std::size_t to = image[around.entry[n]];
+        filled[to] += around.w[n] * weight[to] * part / sum;
+      }
+    });
+    for (std::size_t e = 0; e < volume.size(); ++e)
+      if (fitted[e] && filled[e] > 0) weight[e] *= whole[e] / filled[e];
   }
-  for (Entry& entry : entries_) entry.weight = weight[entry.taker];
+  for (std::size_t e = 0; e < volume.size(); ++e) entries_[e].weight = weight[image[e]];
 }
 
 std::shared_ptr<const RoundWeights> round_weights(const core::Grid& grid) {

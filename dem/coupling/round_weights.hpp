@@ -3,9 +3,11 @@
 //   share of entry e = w_e g_e / sum(w g)
 //
 // w are the shares of Weights, and those on closed entries count for open ones near them. g is fitted once: particles
-// spread evenly over the cross-section fill the open volume V of every entry evenly. g = V alone would fill small cut
-// cells by half, and the cells next to them by a seventh too much. V of a face is the volume of its momentum. Faces of
-// open cells that the wall closes have theirs, and hold it at rest, as the faces on the walls of a box do.
+// spread evenly over the column fill the open volume V of every entry evenly. g = V alone would fill small cut cells by
+// half, and the cells next to them by a seventh too much. V of a face is the volume of its momentum. Faces of open
+// cells that the wall closes have theirs, and hold it at rest, as the faces on the walls of a box do.
+//
+// Where the diameter does not change all layers are alike, and have one g.
 #pragma once
 
 #include <memory>
@@ -15,25 +17,25 @@
 
 namespace polybed::dem {
 
-/// Entries of a horizontal layer around a place, and its shares of them. Two may be the same.
-struct LayerShares {
-  std::array<core::Index, 4> at;
-  std::array<double, 4> w;
+/// Entries around a place, and its shares of them. Some may be the same.
+struct EntryShares {
+  std::array<core::Index, 8> at;
+  std::array<double, 8> w;
 };
 
-/// Those of cells, or of faces of one horizontal axis.
-class LayerWeights {
+/// Of cells, or of faces of one axis.
+class EntryWeights {
  public:
   /// \param grid  of the whole column  \param of  axis of the faces; -1: cells
-  LayerWeights(const core::Grid& grid, int of);
+  EntryWeights(const core::Grid& grid, int of);
 
-  [[nodiscard]] LayerShares operator()(double x, double z) const {
-    const Around around = find(x, z);
-    LayerShares shares;
+  [[nodiscard]] EntryShares operator()(const Vector& x) const {
+    const Around around = find(x);
+    EntryShares shares;
     double sum = 0;
-    for (std::size_t n = 0; n < 4; ++n) {
+    for (std::size_t n = 0; n < 8; ++n) {
       const Entry& entry = entries_[around.entry[n]];
-      shares.at[n] = entry.at;
+      shares.at[n] = entry.at + around.lift[n / 4];
       shares.w[n] = around.w[n] * entry.weight;
       sum += shares.w[n];
     }
@@ -43,82 +45,97 @@ class LayerWeights {
 
  private:
   struct Around {
-    std::array<std::size_t, 4> entry;
-    std::array<double, 4> w;
+    std::array<std::size_t, 8> entry;
+    std::array<double, 8> w;
+    std::array<core::Index, 2> lift;  ///< of both layers, where all have one g
   };
   /// What a share on an entry counts for: itself or an open one near it.
   struct Entry {
     std::size_t taker;
-    core::Index at;  ///< of the taker in a field, in the layer that is the first of a field
+    core::Index at;  ///< of the taker in a field; where all layers are alike in the first of them
     double weight;   ///< g of the taker
   };
-  [[nodiscard]] Around find(double x, double z) const {
-    const double px = x * per_spacing_[0] - offset_[0], pz = z * per_spacing_[1] - offset_[1];
-    const double below_x = std::floor(px), below_z = std::floor(pz), fx = px - below_x, fz = pz - below_z;
-    const auto place = [](int n, int count) { return std::size_t(std::clamp(n, 0, count - 1)); };
-    const std::array<std::size_t, 2> i{place(int(below_x), count_[0]), place(int(below_x) + 1, count_[0])};
-    const std::array<std::size_t, 2> k{place(int(below_z), count_[1]), place(int(below_z) + 1, count_[1])};
-    const auto row = std::size_t(count_[0]);
-    return {{i[0] + row * k[0], i[1] + row * k[0], i[0] + row * k[1], i[1] + row * k[1]},
-            {(1 - fx) * (1 - fz), fx * (1 - fz), (1 - fx) * fz, fx * fz}};
+  [[nodiscard]] Around find(const Vector& x) const {
+    std::array<std::array<std::size_t, 2>, 3> at;
+    std::array<std::array<double, 2>, 3> w;
+    for (std::size_t a = 0; a < 3; ++a) {
+      const double place = x[a] * per_spacing_[a] - offset_[a], below = std::floor(place);
+      w[a] = {1 - (place - below), place - below};
+      for (int n = 0; n < 2; ++n) at[a][std::size_t(n)] = std::size_t(std::clamp(int(below) + n, 0, count_[a] - 1));
+    }
+    Around around;
+    for (std::size_t j = 0; j < 2; ++j) {
+      const std::size_t layer = alike_ ? 0 : at[1][j];
+      around.lift[j] = alike_ ? core::Index(at[1][j]) * lift_ : 0;
+      for (std::size_t k = 0; k < 2; ++k)
+        for (std::size_t i = 0; i < 2; ++i) {
+          around.entry[4 * j + 2 * k + i] = entry(at[0][i], layer, at[2][k]);
+          around.w[4 * j + 2 * k + i] = w[0][i] * w[2][k] * w[1][j];
+        }
+    }
+    return around;
   }
+  [[nodiscard]] std::size_t entry(std::size_t i, std::size_t layer, std::size_t k) const {
+    return i + std::size_t(count_[0]) * (k + std::size_t(count_[2]) * layer);
+  }
+  [[nodiscard]] std::size_t layers() const { return alike_ ? 1 : std::size_t(count_[1]); }
   [[nodiscard]] double distance(int i, int k) const;
-  [[nodiscard]] std::size_t taker(const std::vector<double>& volume, int i, int k) const;
-  [[nodiscard]] std::vector<Around> places_to_fit() const;
-  [[nodiscard]] std::vector<double> filled(const std::vector<Around>& places, const std::vector<double>& weight) const;
-  void fit(const std::vector<double>& volume);
+  [[nodiscard]] std::size_t taker(const std::vector<double>& volume, int i, int layer, int k) const;
+  [[nodiscard]] std::size_t in_quarter(std::size_t entry) const;
+  template <class Body>
+  void for_each_place(const core::Grid& grid, Body&& body) const;
+  void fit(const core::Grid& grid, const std::vector<double>& volume);
 
-  std::array<int, 2> count_{};
-  std::array<double, 2> per_spacing_{}, offset_{};  ///< 1/m; spacings
-  double radius_;                                   ///< of the column, m
+  std::array<int, 3> count_{};
+  std::array<double, 3> per_spacing_{}, offset_{};  ///< 1/m; spacings
+  bool alike_;                                      ///< all layers are
+  core::Index lift_;                                ///< from a layer to the next in a field
+  double radius_;                                   ///< of the column where it is widest, m
   std::vector<Entry> entries_;
 };
 
 /// Of a particle, of each kind of entries.
 struct RoundShares {
-  LayerShares cell, face_x, face_z;
-  Line upright_cell, upright_face;
+  EntryShares cell;
+  std::array<EntryShares, 3> face;
 };
 
 class RoundWeights {
  public:
   /// \param grid  of the whole column, which is round
-  explicit RoundWeights(const core::Grid& grid) : upright_(grid), cell_(grid, -1), face_x_(grid, 0), face_z_(grid, 2) {}
+  explicit RoundWeights(const core::Grid& grid)
+      : cell_(grid, -1), face_{EntryWeights(grid, 0), EntryWeights(grid, 1), EntryWeights(grid, 2)} {}
 
   [[nodiscard]] RoundShares operator()(const Vector& x) const {
-    const Lines lines = upright_(x);
-    return {cell_(x[0], x[2]), face_x_(x[0], x[2]), face_z_(x[0], x[2]), lines.cell[1], lines.face[1]};
+    return {cell_(x), {face_[0](x), face_[1](x), face_[2](x)}};
   }
 
  private:
-  Weights upright_;
-  LayerWeights cell_, face_x_, face_z_;
+  EntryWeights cell_;
+  std::array<EntryWeights, 3> face_;
 };
 
 /// Null for a box.
 [[nodiscard]] std::shared_ptr<const RoundWeights> round_weights(const core::Grid& grid);
 
-/// Calls body(at, share) for the entries of layers that a line along y crosses.
-template <class Body>
-void for_each_share(const LayerShares& layer, const Line& upright, Body&& body) {
-  for (std::size_t j = 0; j < 2; ++j)
-    for (std::size_t n = 0; n < 4; ++n) body(std::size_t(layer.at[n] + upright.at[j]), layer.w[n] * upright.w[j]);
-}
-
-/// As for the Lines of a box.
+/// As for the Lines of a box: calls body(at, share).
 template <class Body>
 void for_each_cell(int /*dimensions*/, const RoundShares& shares, Body&& body) {
-  for_each_share(shares.cell, shares.upright_cell, body);
+  for (std::size_t n = 0; n < 8; ++n) body(std::size_t(shares.cell.at[n]), shares.cell.w[n]);
 }
 
 template <class Body>
 void for_each_face(int /*dimensions*/, const RoundShares& shares, int axis, Body&& body) {
-  if (axis == 1) return for_each_share(shares.cell, shares.upright_face, body);
-  for_each_share(axis == 0 ? shares.face_x : shares.face_z, shares.upright_cell, body);
+  const EntryShares& face = shares.face[std::size_t(axis)];
+  for (std::size_t n = 0; n < 8; ++n) body(std::size_t(face.at[n]), face.w[n]);
 }
 
-/// The line of the faces along y.
-[[nodiscard]] inline Line& upright_faces(Lines& lines) { return lines.face[1]; }
-[[nodiscard]] inline Line& upright_faces(RoundShares& shares) { return shares.upright_face; }
+/// Multiplies the shares on the faces along y.
+inline void weaken_upright_faces(Lines& lines, double by) {
+  for (double& w : lines.face[1].w) w *= by;
+}
+inline void weaken_upright_faces(RoundShares& shares, double by) {
+  for (double& w : shares.face[1].w) w *= by;
+}
 
 }  // namespace polybed::dem

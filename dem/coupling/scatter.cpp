@@ -87,7 +87,7 @@ void Scatter::add_cut(const Place& place, Given given) {
   for (double& amount : given.same) amount *= share;
   for (double& component : given.impulse) component *= share;
   auto kept = shares<round>(place.x);
-  top_->drop_beyond(place, upright_faces(kept));
+  weaken_upright_faces(kept, top_->on_faces(place));
   add<count>(kept, given);
 }
 

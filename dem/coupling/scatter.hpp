@@ -23,6 +23,8 @@ class Scatter {
           double speed);
   /// From here on particles pass the top, and count as far as they are inside.
   void open_top() { top_.emplace(grid_); }
+  /// Null in a box.
+  [[nodiscard]] const std::shared_ptr<const RoundWeights>& round() const { return round_; }
 
   /// Sums over this rank's particles. \param dt  of the fluid's step, s
   void collect(const Particles& particles, const std::vector<FluidLoad>& loads, double dt);

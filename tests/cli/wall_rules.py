@@ -12,7 +12,6 @@ def tapered(*rows):
 
 
 TAPERED = tapered((0, 0.06), (0.1, 0.12), (0.2, 0.12))
-CONE = [*ROUND, "column.profile=[[0, 0.04], [0.1, 0.06], [0.2, 0.06]]"]
 
 
 def wall(start, end, shape="flat"):
@@ -40,8 +39,6 @@ WALLS = {
     "column.profile goes from {} to {} m: from 0 to the height of the column, {} m": tapered((0, 0.06), (0.1, 0.12)),
     "column.profile: too many pairs at {} m: a step inside has two, each end has one": tapered((0, 0.06), (0.1, 0.06), (0.1, 0.08), (0.1, 0.12), (0.2, 0.12)),
     "column.profile is {} m in diameter where it is widest, column.size {} m: make them equal": tapered((0, 0.06), (0.2, 0.1)),
-    'column.profile and bed.start = "random" cannot be combined yet: particles would be placed beside the narrow part; use "mixed"': [
-        *CONE, "bed.start=random"],
     "column.profile: {} m at its narrowest are {} cells, at least {}: take more cells in column.cells": tapered((0, 0.03), (0.2, 0.12)),
     "wall.from and wall.to have {} and {} numbers: 2 here, x and y, or diameter and height of a round one": [wall([0.01], [0.02, 0.01])],
     "[[wall]] number {} is {} m in diameter at its narrow end, less than two particles, {} m: widen it": [
@@ -70,7 +67,4 @@ ROUND_OF_MODELS = {
 }
 ROUND_FOR_ONE_MODEL = {
     'column.shape = "axisymmetric": polybed tfm can run it, polybed dem cannot: particles go around the axis; use "cylinder"': [AROUND],
-    'column.profile in a fluid: polybed tfm can run it, polybed dem cannot; set fluid.name = "none"': CONE,
-    "column.profile and [[feed]]: polybed tfm can run it, polybed dem cannot: particles would enter beside a narrow end": [
-        *CONE, feeds("")],
 }

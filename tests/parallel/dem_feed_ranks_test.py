@@ -30,6 +30,9 @@ greatest_speed = "3 m/s"
 ROUND = """wall = [{shape="cone", from=[0.007, 0], to=[0.016, 0.008]}]
 """ + FILLING.replace('size = ["16 mm", "24 mm"]\ncells = [4, 6]\ndepth = "4 mm"', 'shape = "cylinder"\nsize = ["16 mm", "16 mm", "24 mm"]\ncells = [4, 4, 6]'
                       ).replace('from = ["1 mm"]\nto = ["15 mm"]\n', "")
+# and where the cone is the column's own
+TAPERED = ROUND.replace('wall = [{shape="cone", from=[0.007, 0], to=[0.016, 0.008]}]\n', "").replace(
+    "cells = [4, 4, 6]", "cells = [10, 10, 6]\nprofile = [[0, 0.007], [0.008, 0.016], [0.024, 0.016]]")
 
 
 def above_slot():
@@ -72,10 +75,11 @@ class FeedRanks(Scratch):
 
     def test_particles_that_enter_a_round_hopper(self):
         """They meet the side and the cone, whose contacts are in the histories."""
-        records = self.check_same(self.scene(ROUND, above_cone()), restart=(3, 2), numbers=(1, 2, 3))
-        passed = {json.dumps([record["feed"], record["outflow"], record["energy"]["carried_in_J"]]) for record in records.values()}
-        self.assertEqual(len(passed), 1, passed)
-        self.assertGreater(records[1]["feed"]["a"]["particles"], 100)
+        for silo in (ROUND, TAPERED):
+            records = self.check_same(self.scene(silo, above_cone()), restart=(3, 2), numbers=(1, 2, 3))
+            passed = {json.dumps([record["feed"], record["outflow"], record["energy"]["carried_in_J"]]) for record in records.values()}
+            self.assertEqual(len(passed), 1, passed)
+            self.assertGreater(records[1]["feed"]["a"]["particles"], 100)
 
     def test_particles_that_enter_a_fluid(self):
         feed = '[[feed]]\nspecies = "b"\nat = "top"\nsuperficial_velocity = "40 mm/s"\nvelocity = "0.25 m/s"\n'

@@ -45,6 +45,9 @@ checkpoint_every = "5 ms"
 # 3150 of them in a tube, whose wall cuts the cells.
 ROUND = [word for setting in ("column.shape=cylinder", "column.size=[0.018,0.018,0.06]", "column.cells=[6,6,20]",
                               "bed.particles=[3000,150]") for word in ("--set", setting)]
+# 1575 of them where it is a cone below.
+CONE = [*ROUND, *(word for setting in ("column.profile=[[0,0.012],[0.024,0.018],[0.06,0.018]]", "bed.particles=[1500,75]")
+                  for word in ("--set", setting))]
 FILES = ("fields.h5", "particles.h5", "profiles.h5", "checkpoint.h5")
 
 
@@ -112,20 +115,26 @@ class FluidOnRanks(Scratch):
             self.assertEqual(same_bits(one / name, parted / name), [], name)
         self.assertNotEqual(same_bits(one / "fields.h5", self.one / "fields.h5"), [])
 
-    def test_a_round_column_stores_the_same_on_several_ranks_and_after_a_restart(self):
+    def check_round(self, words):
         one, each, shared, parted = (self.folder / name for name in ("round", "each", "shared", "parted"))
-        self.on(1, *ROUND, "-o", one)
-        self.on(2, *ROUND, "-o", each)
-        self.on(2, *ROUND, "-o", parted, "--until", "5 ms")
-        self.on(2, *ROUND, "-o", parted, "--resume")
+        self.on(1, *words, "-o", one)
+        self.on(2, *words, "-o", each)
+        self.on(2, *words, "-o", parted, "--until", "5 ms")
+        self.on(2, *words, "-o", parted, "--resume")
         for name in FILES[:3]:
             self.assertEqual(same_bits(one / name, each / name), [], name)
             self.assertEqual(same_bits(one / name, parted / name), [], name)
-        self.on(2, *ROUND, "-o", shared, "--set", "dem.fluid_ranks=shared")
+        self.on(2, *words, "-o", shared, "--set", "dem.fluid_ranks=shared")
         self.assertEqual(self.record(shared)["ranks"], "shared")
         ours, other = datasets(one / "fields.h5"), datasets(shared / "fields.h5")
         for path, values in ours.items():
             np.testing.assert_allclose(other[path], values, rtol=0, atol=1e-6 * max(np.abs(values).max(), 1e-12), err_msg=path)
+
+    def test_a_round_column_stores_the_same_on_several_ranks_and_after_a_restart(self):
+        self.check_round(ROUND)
+
+    def test_a_cone_stores_the_same_on_several_ranks_and_after_a_restart(self):
+        self.check_round(CONE)
 
     def check_particles(self, found, ranks):
         """What each step's pressure lets go wrong with a particle is 1e-8 of what the fluid does to it in that step, so that
