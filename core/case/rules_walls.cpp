@@ -181,14 +181,6 @@ std::vector<Rule> round_column_rules() {
          if (column.shape == ColumnShape::box || column.sides != Boundary::periodic) return Broken();
          return Broken({std::string(name_of(column.shape))});
        }},
-      {{"column.shape", "fluid.equation_of_state"},
-       "column.shape = \"{}\" and a compressible fluid cannot be combined yet; use fluid.equation_of_state = "
-       "\"incompressible\"",
-       [](const Scene& scene) {
-         const ColumnShape shape = scene.column.shape;
-         if (shape == ColumnShape::box || !scene.fluid.compressible()) return Broken();
-         return Broken({std::string(name_of(shape))});
-       }},
       {{"layer.from", "column.shape"},
        "[[layer]] number {} has corners, a round column has none: leave layer.from and layer.to out",
        layers_with_corners},

@@ -26,8 +26,6 @@ WALLS = {
     'column.depth and column.shape = "axisymmetric" contradict each other: leave column.depth out': [AROUND, "column.depth=0.01"],
     'column.sides = "periodic" and column.shape = "{}" contradict each other: use column.sides = "wall"': [
         *ROUND, "column.sides=periodic"],
-    'column.shape = "{}" and a compressible fluid cannot be combined yet; use fluid.equation_of_state = "incompressible"': [
-        *ROUND, "fluid.equation_of_state=tait"],
     "[[layer]] number {} has corners, a round column has none: leave layer.from and layer.to out": [
         *ROUND, *COUNTED, layers(FINE + ", from=[0.02, 0.02], to=[0.04, 0.04]")],
     "[[feed]] of {} reaches beyond the round column, {} m in diameter: move feed.from and feed.to inwards, or leave them out": [

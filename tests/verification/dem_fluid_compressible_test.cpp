@@ -1,5 +1,7 @@
 // A sphere in a fluid that sound runs through: where it is slow it moves as in an incompressible one.
+#include "core/numerics/metric.hpp"
 #include "fluid/compressible.hpp"
+#include "fluid/fluid_mass.hpp"
 #include "scenes/dem_scenes.hpp"
 #include "scenes/wet_beads.hpp"
 
@@ -13,16 +15,15 @@ struct Fallen {
 
 double fluid_mass(const dem::Model& model) {
   const fluid::Flow& flow = model.coupling()->flow();
-  double mass = 0;
-  core::for_each_row(flow.grid(), [&](core::Index begin, core::Index end) {
-    for (auto c = std::size_t(begin); c < std::size_t(end); ++c)
-      mass += flow.state().voidage[c] * flow.state().compression.density[c];
-  });
-  return mass;
+  return fluid::fluid_mass(flow.grid(), flow.state());
 }
 
-Fallen fall(const Liquid& fluid, const std::string& law, double density, double diameter, double cell, double time) {
+/// \param profile  of a round column, in cells; empty: a box
+Fallen fall(const Liquid& fluid, const std::string& law, double density, double diameter, double cell, double time,
+            core::Taper profile = {}) {
   core::Scene scene = wet_box(diameter, density, fluid, {5 * cell, 6 * cell, 5 * cell}, {5, 6, 5});
+  for (auto& [height, across] : profile) scene.column.profile.emplace_back(height * cell, across * cell);
+  if (!profile.empty()) scene.column.shape = core::ColumnShape::cylinder;
   scene.fluid.equation_of_state = core::choice_of<core::Compressibility>(law);
   scene.column.gravity = 9.81;
   scene.dem.fixed_step = time / 2400;
@@ -44,6 +45,18 @@ TEST(DemCompressible, ASphereFallsInTaitWaterAsInIncompressible) {
   compare("speed", other.speed, one.speed, 1e-5);
   compare("place", other.place, one.place, 1e-5);
   compare("mass of the water", other.mass_change, 0, 1e-12, 1);
+}
+
+// In a tube and in a cone, whose walls cut the cells.
+TEST(DemCompressible, ASphereFallsInARoundColumnOfTaitWaterAsInIncompressible) {
+  for (const double bottom : {5.0, 4.0}) {
+    const core::Taper profile{{0, bottom}, {4, 5}, {6, 5}};
+    const Fallen one = fall(water, "incompressible", 2500, 2e-3, 8e-3, 0.1, profile),
+                 other = fall(water, "tait", 2500, 2e-3, 8e-3, 0.1, profile);
+    compare("speed", other.speed, one.speed, 1e-5);
+    compare("place", other.place, one.place, 1e-5);
+    compare("mass of the water", other.mass_change, 0, 1e-12, 1);
+  }
 }
 
 TEST(DemCompressible, ASphereFallsInAnIdealGasAsInIncompressible) {
