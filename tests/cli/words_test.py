@@ -10,7 +10,8 @@ import unittest.mock
 import program
 from program import CASE, DONE, ROOT, WRONG_CASE, Scratch, run_all, small_bed, strict_json
 
-TEMPLATES = ["binary-both-scales", "classifier", "gas-bed", "hopper", "liquid-bed", "round-liquid-bed", "sphere", "tapered-bed"]
+TEMPLATES = ["binary-both-scales", "classifier", "gas-bed", "hopper", "liquid-bed", "round-liquid-bed", "sphere", "spouted-bed",
+             "tapered-bed"]
 WIDTH = 100  # columns
 
 
