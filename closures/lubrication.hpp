@@ -2,6 +2,7 @@
 // already holds the mean part.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -31,6 +32,15 @@ namespace polybed::closures {
                                             double roughness) {
   const double h = gap > roughness ? gap : roughness;
   return gap < reach ? 6 * std::numbers::pi * viscosity * reduced_radius * reduced_radius / h : 0;
+}
+
+/// What a grid lacks that resolves films from a gap on: 6 pi mu R*^2 (1/h - 1/resolved) below it, kg/s (Nguyen and
+/// Ladd, Phys. Rev. E 66 (2002) 046708). Otherwise as film_resistance().
+/// \param resolved  m, > 0
+[[nodiscard]] inline double unresolved_film_resistance(double viscosity, double reduced_radius, double gap,
+                                                       double resolved, double roughness) {
+  const double known = 6 * std::numbers::pi * viscosity * reduced_radius * reduced_radius / resolved;
+  return std::max(film_resistance(viscosity, reduced_radius, gap, resolved, roughness) - known, 0.0);
 }
 
 }  // namespace polybed::closures

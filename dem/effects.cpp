@@ -36,12 +36,13 @@ double longest_step(const core::Scene& scene, const Materials& materials) {
   return shape * scene.dem.max_overlap * 2 * radius / scene.dem.steps_per_contact;
 }
 
-PairLaws make_pair_laws(const core::Scene& scene, const Materials& materials, const std::vector<const Maker*>& list) {
+PairLaws make_pair_laws(const core::Scene& scene, const Materials& materials, const std::vector<const Maker*>& list,
+                        double resolved_gap) {
   core::refuse(rules(list), scene);
   PairLaws laws;
   std::function<std::unique_ptr<NormalLaw>(const MakeNormal&)> around_normal;
   for_each_called<MakePair>(list, scene, [&](MakePair make, const std::string& law) {
-    make({scene, materials, law, laws, around_normal});
+    make({scene, materials, law, laws, around_normal, resolved_gap});
   });
   if (!laws.normal) throw core::StartError(contact_rule().problems(scene));
   return laws;

@@ -123,7 +123,8 @@ struct PairLaws {
 /// The laws that a scene names; throws core::CaseError for a scene that breaks a rule of the effects. Each law is given
 /// its place in the memory of a contact: that of the normal force first, then friction's, rolling's, cohesion's, the
 /// bridge's.
+/// \param resolved_gap  m, from which on a fluid resolves the films, which have only the rest; 0: none does
 [[nodiscard]] PairLaws make_pair_laws(const core::Scene& scene, const Materials& materials,
-                                      const std::vector<const Maker*>& list = effects());
+                                      const std::vector<const Maker*>& list = effects(), double resolved_gap = 0);
 
 }  // namespace polybed::dem

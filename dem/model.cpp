@@ -33,13 +33,14 @@ const core::Scene& fitting(const core::Scene& scene) {
 
 }  // namespace
 
-Model::Model(const core::Scene& scene, core::Timers& timers, std::shared_ptr<const core::Ranks> ranks, FluidBy fluid_by)
+Model::Model(const core::Scene& scene, core::Timers& timers, std::shared_ptr<const core::Ranks> ranks, FluidBy fluid_by,
+             double resolved_gap)
     : scene_(fitting(scene)),
       ranks_(std::move(ranks)),
       timers_(timers),
       box_(box_of(scene)),
       materials_(scene),
-      laws_(make_pair_laws(scene, materials_)),
+      laws_(make_pair_laws(scene, materials_, effects(), resolved_gap)),
       start_(start_particles(scene, materials_, box_)),
       expected_(expected_speeds(scene, materials_, box_, start_)),
       limits_(step_limits(scene, materials_, laws_, expected_.greatest)),

@@ -65,9 +65,10 @@ class Model : public core::Simulation {
  public:
   /// The scene's particles at their start; throws core::CaseError for what cannot be built. Collective, as are step,
   /// restart, checkpoint and resume.
-  /// \param ranks  that share the box; null: it is all here
+  /// \param ranks  that share the box; null: it is all here  \param resolved_gap  of the caller's fluid, as of
+  /// make_pair_laws()
   Model(const core::Scene& scene, core::Timers& timers, std::shared_ptr<const core::Ranks> ranks = nullptr,
-        FluidBy fluid_by = FluidBy::model);
+        FluidBy fluid_by = FluidBy::model, double resolved_gap = 0);
   Model(const Model&) = delete;
   Model& operator=(const Model&) = delete;
   ~Model() override = default;

@@ -26,13 +26,20 @@ constexpr double reach_over_radius = 0.1;
 /// What stands for the films of a particle together, see Film.
 constexpr double films = 6;
 
-void squeeze(const ContactBatch& b, const Row& radius, const Row& per_mass, double viscosity, double roughness,
-             Row& force) {
+struct Squeezed {
+  double viscosity, roughness;
+  double resolved;  ///< gap from which on the fluid resolves films, m; 0: it does not
+};
+
+void squeeze(const ContactBatch& b, const Row& radius, const Row& per_mass, const Squeezed& film, Row& force) {
   const int n = b.padded();
   POLYBED_INDEPENDENT
   for (int c = 0; c < n; ++c) {
     const double gap = -b.overlap[c];
-    const double whole = closures::film_resistance(viscosity, radius[c], gap, reach_over_radius * radius[c], roughness);
+    const double whole =
+        film.resolved > 0
+            ? closures::unresolved_film_resistance(film.viscosity, radius[c], gap, film.resolved, film.roughness)
+            : closures::film_resistance(film.viscosity, radius[c], gap, reach_over_radius * radius[c], film.roughness);
     force[c] = gap > 0 ? -b.speed[c] * whole / (1 + whole * per_mass[c]) : 0;
   }
 }
@@ -43,11 +50,12 @@ void squeeze(const ContactBatch& b, const Row& radius, const Row& per_mass, doub
 /// Implicit in v_n: c/(1 + 6 c dt/m*). The 6 is for particles with many films: with it the greatest rate of a close
 /// packing, 8 c/m with films along all its bonds, is at most (2/3)/dt however thin they are, where 2/dt is stable and
 /// 1/dt with the synchronised integrator. It is as if h were greater by 36 pi mu R*^2 dt/m*: to resolve thinner films,
-/// steps must be that much shorter.
+/// steps must be that much shorter. Next to a fluid that resolves wider gaps it is unresolved_film_resistance() of
+/// them.
 class Film final : public FilmLaw {
  public:
-  /// \param viscosity  Pa s  \param roughness  m
-  Film(const Materials& materials, double viscosity, double roughness) : viscosity_(viscosity), roughness_(roughness) {
+  /// Pa s and m
+  Film(const Materials& materials, const Squeezed& film) : film_(film) {
     for (const PairMaterial& m : materials.kinds()) constants_.push_back({m.radius, m.mass, 0});
   }
   void set_step(double dt) override {
@@ -60,11 +68,12 @@ class Film final : public FilmLaw {
       radius[c] = k.radius;
       per_mass[c] = k.per_mass;
     }
-    core::in_vectors<squeeze>(batch, radius, per_mass, viscosity_, roughness_, force);
+    core::in_vectors<squeeze>(batch, radius, per_mass, film_, force);
   }
 
   [[nodiscard]] double reach() const override {
-    double reach = 0;
+    double reach = film_.resolved;
+    if (reach > 0) return reach;
     for (const Constants& k : constants_) reach = std::max(reach, reach_over_radius * k.radius);
     return reach;
   }
@@ -75,7 +84,7 @@ class Film final : public FilmLaw {
     double per_mass;      ///< 6 dt/m*, s/kg
   };
   std::vector<Constants> constants_;
-  double viscosity_, roughness_;
+  Squeezed film_;
 };
 
 void damp(ContactBatch& b, int place, const Row& dry, double least_force) {
@@ -170,7 +179,7 @@ namespace {
 
 void make_film(const PairMaking& m) {
   const double viscosity = relevance::fluid_constants(m.scene.fluid).viscosity;
-  m.laws.film = std::make_unique<Film>(m.materials, viscosity, m.scene.material.roughness);
+  m.laws.film = std::make_unique<Film>(m.materials, Squeezed{viscosity, m.scene.material.roughness, m.resolved_gap});
 }
 
 void make_wet_restitution(const PairMaking& m) {

@@ -32,6 +32,7 @@ struct PairMaking {
   const std::string& law;
   PairLaws& laws;
   std::function<std::unique_ptr<NormalLaw>(const MakeNormal&)>& around_normal;  ///< empty: the normal force as it is
+  double resolved_gap;                                                          ///< as of make_pair_laws()
 };
 using MakePair = void (*)(const PairMaking&);
 

@@ -7,6 +7,7 @@
 #include <optional>
 #include <type_traits>
 
+#include "closures/lubrication.hpp"
 #include "core/error.hpp"
 #include "multiscale/resolve/free_box.hpp"
 #include "multiscale/resolve/lattice/steady.hpp"
@@ -50,6 +51,30 @@ void set_relative_motion(lattice::Flow<Real>& flow, const ResolvePoint& point, c
     motion.push_back({spheres[n].centre, moves(point, packing.species[n]) ? velocity : lattice::Point{}, {}});
   flow.set_motion(motion);
   flow.set_velocity(velocity);
+}
+
+/// Force along x on each sphere by the films between the species that is passed and the others, where the flow does not
+/// resolve them, in units of the lattice.
+std::vector<double> film_forces(const core::Scene& scene, const ResolvePoint& point, const SpherePacking& packing,
+                                const std::vector<lattice::Sphere>& spheres, const BoxPlan& box, double velocity) {
+  std::vector<double> force(spheres.size(), 0);
+  for (std::size_t m = 0; m < spheres.size(); ++m)
+    for (std::size_t n = 0; n < m; ++n) {
+      const bool moving = moves(point, packing.species[m]);
+      if (moving == moves(point, packing.species[n])) continue;
+      lattice::Point d;
+      for (std::size_t k = 0; k < 3; ++k) {
+        d[k] = spheres[m].centre[k] - spheres[n].centre[k];
+        d[k] -= box.edge * std::round(d[k] / box.edge);
+      }
+      const double distance = std::hypot(d[0], d[1], d[2]), a = spheres[m].radius, b = spheres[n].radius;
+      const double resistance = closures::unresolved_film_resistance(
+          box.units.viscosity, a * b / (a + b), distance - a - b, resolved_gap, scene.material.roughness * box.scale);
+      const double on_m = (moving ? -1 : 1) * resistance * velocity * std::pow(d[0] / distance, 2);
+      force[m] += on_m;
+      force[n] -= on_m;
+    }
+  return force;
 }
 
 template <class Real>
@@ -107,9 +132,12 @@ BoxDrag resolved(const core::Scene& scene, const ResolvePoint& point, const Sphe
   plan.most_steps = std::llround(most_windows * plan.window);
   const lattice::FlowSetup setup = setup_of(box, point.reynolds);
   lattice::Flow<Real> flow(setup, lattice::Spheres(spheres, setup.box));
-  if (point.past >= 0)
-    set_relative_motion(flow, point, packing, spheres,
-                        {units.speed / flow.fluid_sites() * std::pow(box.edge, 3), 0, 0});
+  std::vector<double> films(spheres.size(), 0);
+  if (point.past >= 0) {
+    const double velocity = units.speed / flow.fluid_sites() * std::pow(box.edge, 3);
+    set_relative_motion(flow, point, packing, spheres, {velocity, 0, 0});
+    films = film_forces(scene, point, packing, spheres, box, velocity);
+  }
   bool stopped = false;
   Stand stand;
   if (const auto state = kept != nullptr ? kept->read() : std::nullopt) {
@@ -147,7 +175,7 @@ BoxDrag resolved(const core::Scene& scene, const ResolvePoint& point, const Sphe
   drag.pure.assign(scene.species.size(), 0);
   for (std::size_t n = 0; n < spheres.size(); ++n) {
     const std::size_t j = packing.species[n];
-    drag.pure[j] += steady.forces[n][0] / (6 * pi * units.viscosity * spheres[n].radius * speed);
+    drag.pure[j] += (steady.forces[n][0] + films[n]) / (6 * pi * units.viscosity * spheres[n].radius * speed);
     ++count[j];
   }
   for (std::size_t j = 0; j < count.size(); ++j) {

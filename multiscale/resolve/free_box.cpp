@@ -74,7 +74,7 @@ FreeBox<Real>::FreeBox(const core::Scene& scene, const ResolvePoint& point, cons
       count_(scene.species.size(), 0),
       substeps_(substeps_in(2 * plan_.step, suspension(scene, packing, greatest_speed(plan_)))),
       spheres_(with_step(suspension(scene, packing, greatest_speed(plan_)), 2 * plan_.step / substeps_), timers_,
-               nullptr, dem::FluidBy::caller),
+               nullptr, dem::FluidBy::caller, resolved_gap / plan_.scale),
       flow_(setup_of(plan_), lattice::Spheres(spheres_at(spheres_.particles(), plan_.scale), setup_of(plan_).box)),
       sums_(scene.species.size()) {
   const double density = relevance::fluid_constants(scene.fluid).density;

@@ -18,6 +18,10 @@ struct ResolvePoint {
 /// The species that are passed, each in a box of its own; -1 where none is.
 [[nodiscard]] std::vector<int> passed(const core::Scene& scene);
 
+/// Cells from which on the flow in a gap is resolved (Nguyen and Ladd, Phys. Rev. E 66 (2002) 046708): what it lacks
+/// below is that of the film, within 7 % in docs/record/resolved-flow.md.
+inline constexpr double resolved_gap = 2.0 / 3;
+
 /// Cells of the smallest diameter on a grid.
 [[nodiscard]] double cells_of(const core::Resolve& resolve, int grid);
 

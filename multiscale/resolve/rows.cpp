@@ -171,7 +171,8 @@ std::string box_name(const core::Scene& scene, const ResolvePoint& point) {
                                  int(scene.resolve.precision));
   for (std::size_t j = 0; j < scene.species.size(); ++j)
     text += fmt::format(",{},{}", scene.bed.volume_share[j], scene.species[j].diameter);
-  if (point.past >= 0) text += fmt::format(",past {}", point.past);
+  if (point.past >= 0) text += fmt::format(",past {},roughness {}", point.past, scene.material.roughness);
+  if (scene.resolve.motion != SphereMotion::held) text += fmt::format(",gap {}", resolved_gap);
   if (scene.resolve.motion == SphereMotion::free) text += free_text(scene);
   return core::text_hash(text);
 }

@@ -20,8 +20,13 @@ using core::Broken;
 constexpr double least_pore = 3;
 /// Density of free spheres over that of the fluid: forces of the fluid act on them one step late.
 constexpr double least_ratio = 1.1;
-/// Width of a box of free spheres over the largest diameter: no sphere or film touches another and its image.
-constexpr double least_width = 2.05;
+/// Width of a box of free spheres over the largest diameter: no sphere or film touches another and its image. A film
+/// reaches as far as it is not resolved on the coarsest grid.
+double least_width(const core::Scene& scene) {
+  const double cells =
+      cells_of(scene.resolve, scene.resolve.grids - 1) * core::largest_diameter(scene) / least_diameter(scene);
+  return 2 * (1 + resolved_gap / cells);
+}
 
 bool asks(const core::Scene& scene) {
   return !scene.resolve.voidage.empty() && !scene.species.empty() &&
@@ -116,12 +121,13 @@ Broken spheres_too_light(const core::Scene& scene) {
 Broken box_too_narrow(const core::Scene& scene) {
   Broken broken;
   if (!are_free(scene) || !asks(scene) || species_without_spheres(scene)) return broken;
+  const double needed = least_width(scene);
   for (const double eps : scene.resolve.voidage) {
     const double width = box_length(scene, eps) / core::largest_diameter(scene);
-    if (width >= least_width) continue;
+    if (width >= needed) continue;
     broken.add({fmt::format("{}", scene.resolve.spheres), fmt::format("{:g}", eps), fmt::format("{:.3g}", width),
-                fmt::format("{:g}", least_width),
-                fmt::format("{:.0f}", std::ceil(scene.resolve.spheres * std::pow(least_width / width, 3)))});
+                fmt::format("{:.3g}", needed),
+                fmt::format("{:.0f}", std::ceil(scene.resolve.spheres * std::pow(needed / width, 3)))});
   }
   return broken;
 }

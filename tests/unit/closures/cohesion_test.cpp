@@ -139,6 +139,9 @@ TEST(Lubrication, ByHand) {
   EXPECT_NEAR(film_resistance(1e-3, 1e-3, 1e-5, 1e-4, 1e-7), 0.0018849555921538754, 1e-17);  // 6e-4 pi
   EXPECT_EQ(film_resistance(1e-3, 1e-3, 2e-4, 1e-4, 1e-7), 0);
   EXPECT_EQ(film_resistance(1e-3, 1e-3, 0, 1e-4, 1e-7), film_resistance(1e-3, 1e-3, 1e-7, 1e-4, 1e-7));
+  EXPECT_NEAR(unresolved_film_resistance(1e-3, 1e-3, 1e-5, 1e-4, 1e-7), 0.0016964600329384883, 1e-17);  // 5.4e-4 pi
+  EXPECT_EQ(unresolved_film_resistance(1e-3, 1e-3, 1e-4, 1e-4, 1e-7), 0);
+  EXPECT_EQ(unresolved_film_resistance(1e-3, 1e-3, 1e-5, 1e-4, 2e-4), 0);  // thicker than what is resolved
 }
 
 }  // namespace

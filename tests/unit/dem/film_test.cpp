@@ -42,6 +42,18 @@ TEST(Film, SlowsTwoSpheresDownWithTheLogarithmOfTheirGap) {
   }
 }
 
+// A fluid that resolves gaps from 1e-4 m on leaves 1/h - 1e4/m of the film.
+TEST(Film, IsTheRestNextToAFluidThatResolvesWiderGaps) {
+  const double resolved = 1e-4, v0 = 0.04;
+  PairBench bench(film_scene(0.01), 2e-7, 1.001 * resolved, v0, false, resolved);
+  const double per_e = loss(0.01, bench.kind());
+  for (const double gap : {5e-5, 1e-5, 2e-6}) {
+    while (bench.gap() > gap) bench.step();
+    const double h = bench.gap() / resolved;
+    EXPECT_NEAR(bench.speed(), v0 + per_e * (std::log(h) + 1 - h), tolerance * v0) << gap;
+  }
+}
+
 TEST(Film, SlowsASphereDownOverAFloorLikewise) {
   Bench bench(film_scene(0.01), 2e-7);
   const double reach = 0.1 * 2.5e-3, v0 = 0.04, per_e = loss(0.01, bench.kind());

@@ -21,10 +21,11 @@ struct Mover {
 class PairBench {
  public:
   /// Any number of spheres, each a pair with each.
-  PairBench(const core::Scene& scene, double time_step, const std::vector<Mover>& movers, bool synchronised = false)
+  PairBench(const core::Scene& scene, double time_step, const std::vector<Mover>& movers, bool synchronised = false,
+            double resolved_gap = 0)
       : box_(open_box()),
         materials(scene),
-        laws(make_pair_laws(scene, materials)),
+        laws(make_pair_laws(scene, materials, effects(), resolved_gap)),
         dt(time_step),
         force(force_unit(scene, materials, laws)),
         torque(torque_unit(force, materials)),
@@ -48,8 +49,9 @@ class PairBench {
     find(0);
   }
   /// Two that meet head on. \param gap  between the surfaces, m  \param speed  of approach, m/s, half each
-  PairBench(const core::Scene& scene, double time_step, double gap, double speed, bool synchronised = false)
-      : PairBench(scene, time_step, head_on(scene.species[0].diameter, gap, speed), synchronised) {}
+  PairBench(const core::Scene& scene, double time_step, double gap, double speed, bool synchronised = false,
+            double resolved_gap = 0)
+      : PairBench(scene, time_step, head_on(scene.species[0].diameter, gap, speed), synchronised, resolved_gap) {}
   PairBench(const PairBench&) = delete;
   PairBench& operator=(const PairBench&) = delete;
 
