@@ -1,21 +1,27 @@
 #!/usr/bin/python3
-"""Spheres that settle freely in resolved flow: free_spheres.py PROGRAM FOLDER [one_size | system_b]
+"""Spheres that settle freely in resolved flow: free_spheres.py PROGRAM FOLDER [one_size | box | grid | viscous | relative | system_b]
 
-one_size: hindered settling of beads of one size beside Richardson and Zaki's law (1954). system_b: fine and coarse of cases/matsuura-akehata at a
-voidage of 0.87, free and held; the held species at the slip at which its drag bears its own weight. Prints the rows of the record.
-Rows that are finished are kept: the same command goes on.
+one_size: hindered settling of beads of one size beside Richardson and Zaki's law (1954), resolved settling of Yin and Koch (2007) and a law of
+held spheres. box: more and more beads in a box, with the limit of a large one. grid, viscous: finer cells, a more viscous liquid. relative: forces
+by relative motion on finer and finer grids. system_b: fine and coarse of cases/matsuura-akehata at a voidage of 0.87, free and held; the held
+species at the slip at which its drag bears its own weight. Prints the rows of the record. Rows that are finished are kept: the same command goes on.
 """
 import argparse
 import csv
+import json
 import subprocess
 from pathlib import Path
 
 import numpy as np
 from inversion_from_rows import carrying
+from scipy.optimize import brentq
 from strips import ROOT
 
 GRAVITY = 9.81
 LIQUID = {"density": 1000.0, "viscosity": 5e-3}
+# Re alone, prefactor and exponent of k (1 - phi)^n, Yin and Koch, Phys. Fluids 19 (2007) 093302, as quoted in the scripts of Willen and
+# Prosperetti's group (errors of k 0.02 to 0.06, of n 0.1 to 0.3).
+YIN_KOCH = np.array([[1.02, 0.92, 4.2], [1.83, 0.90, 4.1], [5.00, 0.86, 4.0], [9.98, 0.86, 3.8], [20.0, 0.88, 3.6]])
 BEADS = {"diameter": 1.5e-3, "density": 1300.0}
 CASE = """[column]
 size = ["30 mm", "30 mm"]
@@ -44,6 +50,16 @@ until = "1 s"
 """
 
 
+HELD = "vbk_theory"  # of one size: Beetstra, van der Hoef and Kuipers (2007)
+UNTIL = {0.95: '"2 s"', 0.8: '"2 s"'}  # half of the default: means over more spheres need less time
+TWO = """[[species]]
+name = "coarse"
+diameter = 3e-3
+density = 1300.0
+[bed]
+volume_share = [0.5, 0.5]"""
+
+
 def rows(program, case, folder, *settings):
     """Those of polybed resolve, by name."""
     words = [word for setting in settings for word in ("--set", f"resolve.{setting}")]
@@ -52,29 +68,115 @@ def rows(program, case, folder, *settings):
     return [{name: float(cell) for name, cell in row.items() if cell} for row in csv.DictReader(done.stdout.splitlines())]
 
 
-def richardson_zaki(voidage):
-    """Superficial velocity, m/s, and the Reynolds number of a bead alone (Schiller and Naumann)."""
-    d, rho, mu = BEADS["diameter"], LIQUID["density"], LIQUID["viscosity"]
-    stokes = d**2 * (BEADS["density"] - rho) * GRAVITY / (18 * mu)
-    u = stokes
-    for _ in range(100):
-        u = stokes / (1 + 0.15 * (rho * u * d / mu) ** 0.687)
-    re = rho * u * d / mu
+def alone(viscosity):
+    """Stokes velocity, velocity (Schiller and Naumann), m/s, and Reynolds number of a bead alone."""
+    d, rho = BEADS["diameter"], LIQUID["density"]
+    u = stokes = d**2 * (BEADS["density"] - rho) * GRAVITY / (18 * viscosity)
+    for _ in range(200):
+        u = stokes / (1 + 0.15 * (rho * u * d / viscosity) ** 0.687)
+    return stokes, u, rho * u * d / viscosity
+
+
+def richardson_zaki(voidage, viscosity=LIQUID["viscosity"]):
+    """Superficial velocity, m/s."""
+    _, u, re = alone(viscosity)
     exponent = 4.65 if re < 0.2 else 4.35 * re**-0.03 if re < 1 else 4.45 * re**-0.1 if re < 500 else 2.39
-    return u * voidage**exponent, re
+    return u * voidage**exponent
+
+
+def yin_koch(voidage):
+    """The same from resolved settling, between the Reynolds numbers of its table."""
+    _, u, re = alone(LIQUID["viscosity"])
+    k, n = (np.interp(np.log(re), np.log(YIN_KOCH[:, 0]), YIN_KOCH[:, column]) for column in (1, 2))
+    return k * u * voidage**n
+
+
+def held(program, voidage):
+    """The superficial velocity at which a law of held spheres bears the weight, m/s."""
+    stokes, u, _ = alone(LIQUID["viscosity"])
+
+    def lacks(slip):
+        re = LIQUID["density"] * slip * BEADS["diameter"] / LIQUID["viscosity"]
+        words = [program, "drag", "--law", HELD, "--voidage", str(voidage), "--re", str(re), "--json"]
+        return json.loads(subprocess.run(words, capture_output=True, text=True, check=True).stdout)["n"] * slip - stokes
+    return brentq(lacks, 1e-3 * u, u, xtol=1e-4 * u)
+
+
+def settled(program, folder, voidage, spheres, packings, *settings, viscosity=LIQUID["viscosity"], cells=8):
+    """The row of boxes of beads."""
+    folder.mkdir(parents=True, exist_ok=True)
+    case = folder / f"beads-{viscosity}.toml"
+    case.write_text(CASE.format(density=LIQUID["density"], viscosity=viscosity))
+    [row] = rows(program, case, folder / f"{voidage}-{spheres}-{cells}-{viscosity}", "motion=free", f"voidage=[{voidage}]",
+                 f"cells_per_diameter={cells}", "grids=1", f"packings={packings}", f"spheres={spheres}", *settings)
+    return row
+
+
+def of_law(row, law):
+    return f"{row['u_1'] / law:.3f} ± {row['u_1_se'] / law:.3f}"
 
 
 def one_size(program, folder):
-    folder.mkdir(parents=True, exist_ok=True)
-    case = folder / "beads.toml"
-    case.write_text(CASE.format(**LIQUID))
-    print("| voidage | Re | free, mm/s | Richardson and Zaki, mm/s | free over law |\n| --- | --- | --- | --- | --- |")
+    print("| voidage | Re | free, mm/s | Richardson and Zaki | free over it | Yin and Koch over it | held law over it |\n" + "| --- " * 7 + "|")
     for voidage in (0.95, 0.9, 0.8, 0.65):
-        [row] = rows(program, case, folder / f"{voidage}", "motion=free", f"voidage=[{voidage}]", "cells_per_diameter=8", "grids=1",
-                     "packings=2", "spheres=20")
-        law, _ = richardson_zaki(voidage)
-        u, error = row["u_1"], row["u_1_se"]
-        print(f"| {voidage} | {row['Re']:.2f} | {1e3 * u:.1f} ± {1e3 * error:.1f} | {1e3 * law:.1f} | {u / law:.2f} ± {error / law:.2f} |")
+        row = settled(program, folder, voidage, 40, 3)
+        law = richardson_zaki(voidage)
+        print(f"| {voidage} | {row['Re']:.1f} | {1e3 * row['u_1']:.1f} ± {1e3 * row['u_1_se']:.1f} | {1e3 * law:.1f} | {of_law(row, law)} | "
+              f"{yin_koch(voidage) / law:.3f} | {held(program, voidage) / law:.3f} |")
+
+
+def box(program, folder):
+    """The limit is that of a line in (phi/N)^(1/3)."""
+    for voidage in (0.95, 0.8):
+        law = richardson_zaki(voidage)
+        print(f"voidage {voidage}\n| spheres | diameters wide | boxes | free over Richardson and Zaki |\n| --- | --- | --- | --- |")
+        points = []
+        for spheres, packings in ((20, 4), (40, 3), (80, 2), (160, 2)):
+            row = settled(program, folder, voidage, spheres, packings, *(["until=%s" % UNTIL[voidage]] if spheres > 40 else []))
+            wide = (np.pi / 6 * spheres / (1 - voidage)) ** (1 / 3)
+            points.append([1 / wide, row["u_1"] / law, row["u_1_se"] / law])
+            print(f"| {spheres} | {wide:.1f} | {packings} | {of_law(row, law)} |")
+        place, ratio, error = np.transpose(points)
+        (slope, limit), cov = np.polyfit(place, ratio, 1, w=1 / np.maximum(error, 0.01), cov="unscaled")
+        stokes, u, _ = alone(LIQUID["viscosity"])
+        print(f"limit {limit:.3f} ± {cov[1, 1] ** 0.5:.3f}, slope over the width {slope:.2f} ± {cov[0, 0] ** 0.5:.2f}; in Stokes flow "
+              f"{-1.7601 * (np.pi / 6) ** (1 / 3) * carnahan_starling(1 - voidage) * stokes / law:.2f} less what the suspension's viscosity takes off\n")
+
+
+def carnahan_starling(phi):
+    """Structure factor of hard spheres at long waves (Carnahan and Starling, J. Chem. Phys. 51 (1969) 635)."""
+    return (1 - phi) ** 4 / (1 + 4 * phi + 4 * phi**2 - 4 * phi**3 + phi**4)
+
+
+def grid(program, folder):
+    print("| voidage | cells per diameter | free over Richardson and Zaki |\n| --- | --- | --- |")
+    for voidage in (0.8, 0.65):
+        for cells in (8, 12, 16):
+            row = settled(program, folder, voidage, 20, 2, cells=cells)
+            print(f"| {voidage} | {cells} | {of_law(row, richardson_zaki(voidage))} |")
+
+
+def viscous(program, folder):
+    """At a Reynolds number alone of 0.7, where sedimentation of Stokes flow is known."""
+    viscosity = 30e-3
+    stokes, _, re = alone(viscosity)
+    print(f"Re alone {re:.2f}\n| voidage | free over Stokes' velocity | (1 - phi)^4.48 | (1 - phi)^5.6 |\n| --- | --- | --- | --- |")
+    for voidage in (0.8, 0.65):
+        row = settled(program, folder, voidage, 40, 2, viscosity=viscosity)
+        print(f"| {voidage} | {of_law(row, stokes)} | {voidage**4.48:.3f} | {voidage**5.6:.3f} |")
+
+
+def relative(program, folder):
+    folder.mkdir(parents=True, exist_ok=True)
+    case = folder / "two.toml"
+    case.write_text(CASE.format(**LIQUID).replace("[bed]\nvolume_share = [1.0]", TWO))
+    print("| voidage | cells per fine diameter | f_11 | f_12 | f_21 | f_22 | f_11 + f_12 |\n" + "| --- " * 7 + "|")
+    for voidage, grids in ((0.6, (6, 9, 12, 18)), (0.87, (6, 9))):
+        for cells in grids:
+            [row] = rows(program, case, folder / f"{voidage}-{cells}", "motion=moving", f"voidage=[{voidage}]", f"cells_per_diameter={cells}",
+                         "grids=1", "packings=1", "spheres=18")
+            f = [row[f"f_{pair}"] for pair in ("1_1", "1_2", "2_1", "2_2")]
+            print(f"| {voidage} | {cells} | " + " | ".join(f"{value:.3f}" for value in f) + f" | {f[0] + f[1]:.3f} |")
 
 
 def system_b(program, folder):
@@ -91,13 +193,16 @@ def system_b(program, folder):
     print(f"| free | {u[0]:.1f} ± {error[0]:.1f} | {u[1]:.1f} ± {error[1]:.1f} | {u[1] / u[0]:.2f} |")
 
 
+TABLES = {table.__name__: table for table in (one_size, box, grid, viscous, relative, system_b)}
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("program", type=Path)
     parser.add_argument("folder", type=Path)
-    parser.add_argument("what", nargs="?", choices=("one_size", "system_b"))
+    parser.add_argument("what", nargs="?", choices=TABLES)
     given = parser.parse_args()
-    for name, table in (("one_size", one_size), ("system_b", system_b)):
+    for name, table in TABLES.items():
         if given.what in (None, name):
             table(given.program, given.folder / name)
 
