@@ -34,7 +34,7 @@ Preconditioner::Preconditioner(const Constants& constants, const fluid::Boundari
       slope_(core::make_field(constants.grid)),
       elastic_(slope_.size(), 1.0),
       fraction_residual_(constants.species(), core::make_field(constants.grid)),
-      passed_residual_(constants.openings.present() ? constants.species() : 0, core::make_field(constants.grid)),
+      passed_residual_(constants.openings.present() ? constants.species() : 0, core::make_face_field(constants.grid)),
       pressure_residual_(core::make_field(constants.grid)),
       source_p_(core::make_field(constants.grid)),
       source_s_(core::make_field(constants.grid)),
@@ -79,7 +79,7 @@ void Preconditioner::unpack(const StateLayout& layout, std::span<const double> r
         layout.unpack(entry, r, temperature_residual_[j]);
         break;
       case Kind::passed:
-        layout.unpack(entry, r, passed_residual_[j]);
+        layout.unpack(entry, r, passed_residual_[j][a]);
         break;
       case Kind::pressure:
         layout.unpack(entry, r, pressure_residual_);
@@ -198,10 +198,13 @@ void Preconditioner::pack(const StateLayout& layout, std::span<double> z) {
         break;
       case Kind::passed:
         divergence_of_solids(j, j + 1, work_);  // leaves the flux of the correction in flux_
-        for (std::size_t f = 0; f < work_.size(); ++f) work_[f] = (passed_residual_[j][f] + flux_[a][f]) / c_;
+        for (std::size_t f = 0; f < work_.size(); ++f) work_[f] = (passed_residual_[j][a][f] + flux_[a][f]) / c_;
         layout.pack(entry, work_, z);
         break;
       case Kind::pressure:
+        // In closed cells it stays: what the solver leaves there would grow from step to step.
+        for (std::size_t c = 0; constants_.grid.metric && c < dp_.size(); ++c)
+          if (!(constants_.grid.metric->volume[c] > 0)) dp_[c] = 0;
         layout.pack(entry, dp_, z);
         break;
     }

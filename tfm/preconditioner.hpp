@@ -73,7 +73,8 @@ class Preconditioner {
   core::Field slope_, elastic_;                                ///< L; p_s'/L, 1 where both are 0
   core::Field diagonal_;                                       ///< kappa c; empty if the fluid is incompressible
   std::array<std::vector<core::Field>, 3> face_value_;         ///< residuals, then corrections, by row
-  std::vector<core::Field> fraction_residual_, passed_residual_;
+  std::vector<core::Field> fraction_residual_;
+  std::vector<core::FaceField> passed_residual_;
   std::vector<core::Field> temperature_residual_, temperature_row_;  ///< c + decay of theta_j; empty without
   core::Field pressure_residual_, source_p_, source_s_, dp_, work_;
   core::FaceField flux_;

@@ -133,6 +133,19 @@ TEST_P(SidePorts, TheLedgerClosesWhateverTheSteps) {
   EXPECT_LT(worst_ledger(model, start), 1e-12);
 }
 
+// A discharge in the bottom beside the left side, through which solids are fed: their faces at the corner have one
+// index.
+TEST_P(SidePorts, NothingIsLostWhereTwoMeetInACorner) {
+  core::Timers timers;
+  core::Scene scene = busy_sides(integrator());
+  scene.discharges.push_back({ColumnFace::bottom, {0.0}, {0.006}, {{0.0, 0.01}}});
+  tfm::Model model(scene, timers);
+  const std::vector<double> start = volumes_of(model);
+  advance_by_events(model, 0.12);
+  EXPECT_GT(model.passed()[0].in, 0);
+  EXPECT_LT(worst_ledger(model, start), 1e-12);
+}
+
 // Through the middle third of the bottom a bed is emptied: by 0.01 x 0.01 x 0.5 of the settled bed's fraction at most.
 TEST_P(SidePorts, ADischargeInTheBottomEmptiesTheBed) {
   core::Scene scene = binary_bed(9, 20, 0.03, 0.08);

@@ -53,6 +53,35 @@ TEST_P(TaperedBed, LetsAsMuchFluidThroughEveryLevel) {
   }
 }
 
+// In compressible water the cells that the wall closes keep their pressure, and of the water nothing is lost, within
+// the tolerance.
+TEST(TaperedBedInCompressibleWater, KeepsThePressureOfClosedCells) {
+  for (const ColumnShape shape : {ColumnShape::axisymmetric, ColumnShape::cylinder}) {
+    core::Scene scene = tube(shape, cone);
+    scene.fluid.equation_of_state = core::Compressibility::tait;
+    scene.tfm.integrator = core::TfmIntegrator::implicit_steps;
+    core::Timers timers;
+    tfm::Model model(scene, timers);
+    const core::Field &p = model.fields().fluid.pressure, &theta = model.constants().grid.metric->volume;
+    model.show(0);
+    const core::Field start = p;
+    advance(model, 0.05);
+    std::size_t closed = 0;
+    core::for_each_row(model.constants().grid, [&](core::Index begin, core::Index end) {
+      for (auto c = std::size_t(begin); c < std::size_t(end); ++c) {
+        if (theta[c] > 0) continue;
+        ++closed;
+        EXPECT_EQ(p[c], start[c]);
+      }
+    });
+    EXPECT_GT(closed, 0);
+    const double lost =
+        model.fluid_account(0.05)->error(fluid::fluid_mass(model.constants().grid, model.fields().fluid));
+    record("water not accounted for", lost);
+    EXPECT_LT(lost, scene.tfm.rtol);
+  }
+}
+
 // Fed on a part of the bottom, whose area is known, and open above: the ledger closes to round-off.
 TEST_P(TaperedBed, CountsWhatEntersAndLeaves) {
   core::Scene scene = TaperedBed::scene(cone);
