@@ -47,7 +47,7 @@ const std::vector<core::Rule>& model_rules() {
       {{"discharge.at"},
        "[[discharge]]: polybed tfm can run it, polybed dem cannot: particles leave through the top, by column.outlet = "
        "\"open\", or without a fluid through dem.opening",
-       [](const core::Scene& scene) { return core::broken_if(!scene.discharges.empty()); }},
+       [](const core::Scene& scene) { return core::broken_if(scene.fluid.present() && !scene.discharges.empty()); }},
       {{"column.outlet", "fluid.name", "fluid.equation_of_state"},
        "column.outlet = \"open\" in a compressible fluid: polybed tfm can run it, polybed dem cannot: the mass of the "
        "fluid that takes the place of a particle as it leaves would be missing; use fluid.equation_of_state = "

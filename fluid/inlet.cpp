@@ -203,9 +203,14 @@ double Inlet::mean_velocity(double t) const {
   return sum;
 }
 
-double Inlet::greatest() const {
+double Inlet::greatest_below() const {
   double most = 0;
   for (const Part& part : parts_) most = std::max(most, part.ramp.greatest());
+  return most;
+}
+
+double Inlet::greatest() const {
+  double most = greatest_below();
   for (const Port& port : ports_) most = std::max(most, port.ramp.greatest());
   return most;
 }

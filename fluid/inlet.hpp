@@ -65,7 +65,8 @@ class Inlet {
   }
   /// Mean over the bottom, m/s.
   [[nodiscard]] double mean_velocity(double t) const;
-  /// The greatest speed of any part at any time, m/s.
+  /// The greatest speed of any part of the bottom, and of any part at all, at any time, m/s.
+  [[nodiscard]] double greatest_below() const;
   [[nodiscard]] double greatest() const;
   /// Whether there is a time at which nothing flows.
   [[nodiscard]] bool shuts() const;

@@ -76,7 +76,7 @@ std::optional<double> time_of_step(tfm::Model& model, double until, int most_ste
   return spent / std::max(steps, 1);
 }
 
-double superficial_velocity(const tfm::Model& model) { return model.inlet().greatest(); }
+double superficial_velocity(const tfm::Model& model) { return model.inlet().greatest_below(); }
 
 /// Solids fraction of a bed that is packed still but carried by the fluid: where the solids stress carries a tenth of
 /// the weight. The tenth is fitted to the steps that runs took while their beds were lifted, docs/record/cost.md.
@@ -93,10 +93,10 @@ double lifted_fraction(const core::Scene& scene, const tfm::Model& model) {
 /// The bed at rest, lifted, and as the inlet's greatest velocity expands it, with their scales and steps.
 void estimate_steps(const core::Scene& scene, const tfm::Model& model, Requirements& need) {
   const tfm::Constants& constants = model.constants();
-  const double velocity = superficial_velocity(model);
+  const double velocity = superficial_velocity(model), fastest = model.inlet().greatest();
   const auto state = [&](double solids_fraction) {
     using enum core::TfmIntegrator;
-    const double inside = velocity / (1 - solids_fraction), rtol = scene.tfm.rtol;
+    const double inside = fastest / (1 - solids_fraction), rtol = scene.tfm.rtol;
     BedState bed{solids_fraction,
                  tfm::time_scales_of_bed(scene, constants, model.effects(), {solids_fraction, velocity},
                                          need.integrator == split_steps),

@@ -19,13 +19,16 @@ namespace {
 using Table = std::vector<std::pair<double, double>>;  ///< (time, velocity)
 using Lines = std::vector<std::string>;
 
-/// What flows through the bottom, or the sides as well: the inlet and the jets, each by its name.
+/// What flows in through the bottom, or through the bottom and the sides in and out, each by its name.
 std::vector<std::pair<std::string, Table>> inflows_of(const core::Scene& scene, bool sides = false) {
   std::vector<std::pair<std::string, Table>> inflows{{"inlet.superficial_velocity", scene.inlet.superficial_velocity}};
   for (std::size_t n = 0; n < scene.jets.size(); ++n)
     if (sides || !is_side(scene.jets[n].at))
       inflows.emplace_back(fmt::format("superficial_velocity of [[jet]] number {}", n + 1),
                            scene.jets[n].superficial_velocity);
+  for (std::size_t n = 0; sides && n < scene.discharges.size(); ++n)
+    inflows.emplace_back(fmt::format("superficial_velocity of [[discharge]] number {}", n + 1),
+                         scene.discharges[n].superficial_velocity);
   return inflows;
 }
 

@@ -13,7 +13,8 @@ measures::Table<Told> history_table(bool compressible, bool openings) {
     table.push_back(
         {"mass_fluid", "kg", "of a compressible fluid: in the column", [](const Told& t) { return t.fluid_mass; }});
     table.push_back({"fluid_in", "kg",
-                     "of a compressible fluid: in through the distributor and the sides since the start",
+                     "of a compressible fluid: in through the sides and the distributor, less what a [[discharge]] "
+                     "draws off there, since the start",
                      [](const Told& t) { return t.account.in; }});
     table.push_back({"fluid_out", "kg", "of a compressible fluid: out at the top and through the sides since the start",
                      [](const Told& t) { return t.account.out; }});

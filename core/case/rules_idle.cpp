@@ -21,6 +21,7 @@ bool has_inlet(const Scene& scene) {
   return !scene.inlet.superficial_velocity.empty() || !scene.inlet.flow_rate.empty();
 }
 bool has_jets(const Scene& scene) { return !scene.jets.empty(); }
+bool has_discharges(const Scene& scene) { return !scene.discharges.empty(); }
 bool is_given_at_the_top(const Scene& scene) { return scene.inlet.at == ColumnEnd::top; }
 bool is_compressible(const Scene& scene) { return scene.fluid.compressible(); }
 
@@ -42,6 +43,7 @@ std::vector<Rule> without_a_fluid() {
       {{"inlet.superficial_velocity", "inlet.superficial_velocity", has_inlet},
        {"jet.superficial_velocity", "[[jet]]", has_jets},
        {"inlet.at", "inlet.at = \"top\"", is_given_at_the_top},
+       {"discharge.at", "[[discharge]]", has_discharges},
        {"fluid.temperature", "fluid.temperature", [](const Scene& s) { return bool(s.fluid.temperature); }},
        {"fluid.density", "fluid.density", [](const Scene& s) { return bool(s.fluid.density); }},
        {"fluid.viscosity", "fluid.viscosity", [](const Scene& s) { return bool(s.fluid.viscosity); }},
@@ -55,7 +57,7 @@ std::vector<Rule> in_a_closed_column() {
        {"jet.superficial_velocity", "[[jet]]", has_jets},
        {"inlet.at", "inlet.at = \"top\"", is_given_at_the_top},
        {"feed.species", "[[feed]]", [](const Scene& s) { return !s.feeds.empty(); }},
-       {"discharge.at", "[[discharge]]", [](const Scene& s) { return !s.discharges.empty(); }},
+       {"discharge.at", "[[discharge]]", has_discharges},
        {"column.outlet", "column.outlet = \"open\"", [](const Scene& s) { return s.column.outlet == Outlet::open; }}},
       [](const Scene& scene) { return scene.column.closed; }, ": column.closed = true", {"column.closed"});
 }
@@ -64,6 +66,7 @@ std::vector<Rule> in_a_sheared_box() {
   return cannot_act({{"inlet.superficial_velocity", "inlet.superficial_velocity", has_inlet},
                      {"jet.superficial_velocity", "[[jet]]", has_jets},
                      {"inlet.at", "inlet.at = \"top\"", is_given_at_the_top},
+                     {"discharge.at", "[[discharge]]", has_discharges},
                      {"dem.held", "dem.held = true", [](const Scene& s) { return s.bed.held; }},
                      {"fluid.equation_of_state", "fluid.equation_of_state", is_compressible}},
                     [](const Scene& scene) { return scene.column.shear_rate != 0 && scene.fluid.present(); },

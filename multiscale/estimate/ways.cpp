@@ -46,8 +46,11 @@ void add_coarser(std::vector<Way>& ways, const core::Scene& scene, bool implicit
 void add_fewer_dimensions(std::vector<Way>& ways, const core::Scene& scene) {
   const core::Column& column = scene.column;
   const int across = column.cells[0], deep = column.cells[2];
-  const bool all_across = scene.jets.empty() && std::all_of(scene.feeds.begin(), scene.feeds.end(),
-                                                            [](const core::Feed& feed) { return feed.from.empty(); });
+  const auto all = [](const auto& parts, auto&& is) { return std::all_of(parts.begin(), parts.end(), is); };
+  const auto whole = [](const auto& part) { return part.from.empty(); };
+  const bool all_across = scene.jets.empty() && all(scene.feeds, whole) && all(scene.discharges, whole);
+  const auto at_an_end = [](const auto& part) { return !is_side(part.at); };
+  if (!all(scene.jets, at_an_end) || !all(scene.feeds, at_an_end) || !all(scene.discharges, at_an_end)) return;
   if (column.is_round() && all_across)
     ways.push_back({fmt::format("column.shape = \"axisymmetric\", column.size = [radius, height], column.cells = "
                                 "[{}, {}]",
