@@ -270,7 +270,7 @@ void print_composition(const core::Scene& scene, const closures::DragLaw& law, c
 std::string reason_of(const core::Scene& scene) {
   const bool first = scene.species[0].diameter > scene.species[1].diameter;
   const core::Species &larger = scene.species[first ? 0 : 1], &smaller = scene.species[first ? 1 : 0];
-  if (larger.density < smaller.density) return "";
+  if (larger.density < smaller.density || larger.diameter == smaller.diameter) return "";
   return fmt::format(
       "\nlayers change places only if the larger particles are the lighter ones; {} is larger and {}, so {} is on top "
       "at every velocity",

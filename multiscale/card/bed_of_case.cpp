@@ -258,13 +258,14 @@ BedOfCase bed_without_expansion(const core::Scene& scene) {
   return bed;
 }
 
-/// The velocity at which a law of `bed.others` expects the height; nothing if the bed leaves the column before.
+/// The velocity at which a law of `bed.others` expects the height; nothing if a species leaves the column before.
 std::optional<double> velocity_for(core::Scene scene, const BedOfCase& bed, std::size_t law, double height) {
   constexpr double greatest = 100, step = 1.05;  // times u_mf, which lets no bed expand so far
   const auto reaches = [&](double velocity) -> std::optional<bool> {
     scene.inlet.superficial_velocity = {{0.0, velocity}};
-    const std::optional<double> found = bed_without_expansion(scene).others[law].height;
-    return found ? std::optional(*found >= height) : std::nullopt;
+    const BedOfCase moved = bed_without_expansion(scene);
+    const std::optional<double>& found = moved.others[law].height;
+    return found && moved.leaving.empty() ? std::optional(*found >= height) : std::nullopt;
   };
   const double start = *bed.others[law].minimum_fluidisation;
   for (double high = step * start; high < greatest * start; high *= step) {
@@ -283,7 +284,9 @@ std::optional<double> velocity_for(core::Scene scene, const BedOfCase& bed, std:
 
 void add_expansion(const core::Scene& scene, BedOfCase& bed) {
   const bool gas = !bed.species.empty() && !bed.species.front().geldart.empty();
-  if (gas || !bed.own.height || scene.column.is_tapered() || !scene.jets.empty()) return;
+  const bool side_by_side = std::any_of(scene.layers.begin(), scene.layers.end(),
+                                        [](const core::Layer& layer) { return !layer.from.empty(); });
+  if (gas || !bed.own.height || scene.column.is_tapered() || !scene.jets.empty() || side_by_side) return;
   const double settled = settled_height(scene);
   for (const double share : {0.1, 0.3, 0.5}) {
     ExpansionAt found{share, std::numeric_limits<double>::max(), 0};
