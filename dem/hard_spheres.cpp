@@ -47,7 +47,7 @@ double Region::distance_from_axis(const Vector& x) const {
 }
 
 void Region::move_within_side(Vector& x) const {
-  if (side) return side.move_inside(x, of_sphere);
+  if (side) return side.move_inside(x, of_sphere, low[1], high[1]);
   const auto [dx, dz] = from_axis(x);
   const double away = distance_from_axis(x), beyond = away - radius();
   if (!(beyond > 0)) return;

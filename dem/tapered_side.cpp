@@ -46,18 +46,19 @@ double TaperedSide::reach(double height, double radius) const {
 }
 
 /// A hair off the walls, or round-off could leave it within a step, whose rim would then push it far towards the axis.
-void TaperedSide::move_inside(Vector& x, double radius) const {
+void TaperedSide::move_inside(Vector& x, double radius, double low, double high) const {
   constexpr double hair = 1 + 0x1p-30;
   if (from_axis(x) <= reach(x[1], radius)) return;
   for (const Part& part : parts_) {
     const double away = from_axis(x), y = x[1] - part.y, r = away - part.r,
                  square = part.along_y * part.along_y + part.along_r * part.along_r, length = std::sqrt(square);
     const double along = y * part.along_y + r * part.along_r, inward = (y * part.along_r - r * part.along_y) / length;
-    if (!(along >= 0 && along <= square) || inward >= radius) continue;
+    if (!(along >= 0 && along <= square) || std::abs(inward) >= radius) continue;
     const double push = (hair * radius - inward) / length;
     x[1] += push * part.along_r;
     if (away > 0) scale_away(x, std::max(0.0, 1 - push * part.along_y / away));
   }
+  x[1] = std::clamp(x[1], low, high);
   if (const double away = from_axis(x), most = reach(x[1], radius); away > most)
     scale_away(x, std::max(0.0, most / away));
 }

@@ -17,8 +17,9 @@ class TaperedSide {
   [[nodiscard]] explicit operator bool() const { return column_ != nullptr; }
   /// How far from the axis the centre of a sphere may be at a height, m. Beyond the ends the side goes on straight.
   [[nodiscard]] double reach(double height, double radius) const;
-  /// Moves a sphere that the side cuts along the normals of the walls, and what is left towards the axis.
-  void move_inside(Vector& x, double radius) const;
+  /// Moves a sphere that the side cuts along the normals of the walls, as far as the heights allow that its centre may
+  /// have, and what is left towards the axis.
+  void move_inside(Vector& x, double radius, double low, double high) const;
   /// Volume below a height over the widest cross-section, m, and the inverse.
   [[nodiscard]] double even_height(double height) const { return column_->even_height(height) * per_widest_; }
   [[nodiscard]] double height_of(double even) const { return column_->filled_height(even / per_widest_); }

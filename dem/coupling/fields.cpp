@@ -36,7 +36,17 @@ void Coupling::slip(core::FaceField& velocity) const {
   const core::Grid& grid = flow_.grid();
   if (!grid.metric || !grid.metric->tapered()) return;
   for (int axis = 0; axis < grid.dimensions; ++axis) flow_.boundaries().join(velocity[1], axis);
-  velocity[1] = fluid::slipping(grid, flow_.boundaries(), velocity[1], 1);
+  const core::Field stairs = velocity[1];
+  velocity[1] = fluid::slipping(grid, flow_.boundaries(), stairs, 1);
+  const core::Taper& taper = grid.metric->taper;
+  for (std::size_t n = 1; n < taper.size(); ++n) {
+    const int level = int(std::lround(taper[n].first / grid.spacing[1])) - grid.before[1];
+    if (taper[n - 1].first != taper[n].first || level < 0 || level > grid.cells[1]) continue;
+    const core::Box ledge{{0, level, 0}, {grid.cells[0], level + 1, grid.cells[2]}};  // nothing flows along it
+    core::for_each_row(grid, ledge, [&](core::Index begin, core::Index end) {
+      std::copy(stairs.begin() + begin, stairs.begin() + end, velocity[1].begin() + begin);
+    });
+  }
 }
 
 /// The fields as particles see them.

@@ -26,9 +26,10 @@ core::Column column_of(const Profile& profile) {
   return column;
 }
 
-/// A cone of 45 degrees from 20 to 40 mm, and a step between the same diameters; then a tube.
+/// A cone of 45 degrees from 20 to 40 mm, a step between the same diameters, and the cone upside down; then a tube.
 const Profile cone{{0, 20e-3}, {10e-3, 40e-3}, {60e-3, 40e-3}},
-    step{{0, 20e-3}, {10e-3, 20e-3}, {10e-3, 40e-3}, {60e-3, 40e-3}};
+    step{{0, 20e-3}, {10e-3, 20e-3}, {10e-3, 40e-3}, {60e-3, 40e-3}},
+    funnel{{0, 40e-3}, {10e-3, 20e-3}, {60e-3, 20e-3}};
 
 TEST(TaperedSide, LeavesRoomAsFarAsASphereTouches) {
   const TaperedSide in_cone(column_of(cone)), at_step(column_of(step));
@@ -46,7 +47,7 @@ TEST(TaperedSide, LeavesRoomAsFarAsASphereTouches) {
 TEST(TaperedSide, MovesSpheresOffItsWalls) {
   const TaperedSide in_cone(column_of(cone)), at_step(column_of(step));
   const auto moved = [](const TaperedSide& side, Vector x) {
-    side.move_inside(x, r);
+    side.move_inside(x, r, r, 59e-3);
     return x;
   };
   const Vector up = moved(at_step, {35e-3, 10.6e-3, 20e-3});
@@ -60,12 +61,16 @@ TEST(TaperedSide, MovesSpheresOffItsWalls) {
   EXPECT_EQ(off_the_rim[1], 10.6e-3);
   const Vector free{24e-3, 5e-3, 20e-3};
   EXPECT_EQ(moved(in_cone, free), free);
+  const Vector on_the_floor =
+      moved(TaperedSide(column_of(funnel)), {38e-3, r, 20e-3});  // no lower, so towards the axis
+  EXPECT_EQ(on_the_floor[1], r);
+  EXPECT_NEAR(on_the_floor[0], 20e-3 + 19e-3 - std::sqrt(2.0) * r, 1e-11);
 }
 
 // 2000 spheres of two sizes: none overlaps another or a wall, and as many are below a height as its volume has room
 // for, within four deviations of their number there, which hard spheres stay far below.
 TEST(TaperedSide, StartsAreWithinIt) {
-  for (const Profile& profile : {cone, step})
+  for (const Profile& profile : {cone, step, funnel})
     for (const core::StartKind kind : {core::StartKind::mixed, core::StartKind::random}) {
       core::Scene scene;
       scene.column = column_of(profile);
@@ -96,6 +101,7 @@ TEST(TaperedSide, StartsAreWithinIt) {
         }
       }
       EXPECT_GE(nearest, 1);
+      EXPECT_LE(top, scene.column.size[1] * (1 + 1e-12));
       const double solids = 1000 * (closures::sphere_volume(1e-3) + closures::sphere_volume(0.75e-3));
       const core::Column& column = scene.column;
       const double filled = kind == core::StartKind::random
