@@ -19,7 +19,7 @@ struct ResolvePoint {
 [[nodiscard]] std::vector<int> passed(const core::Scene& scene);
 
 /// Cells from which on the flow in a gap is resolved (Nguyen and Ladd, Phys. Rev. E 66 (2002) 046708): what it lacks
-/// below is that of the film, within 7 % in docs/record/resolved-flow.md.
+/// below is that of the film, within 8 % in docs/record/resolved-flow.md.
 inline constexpr double resolved_gap = 2.0 / 3;
 
 /// Cells of the smallest diameter on a grid.

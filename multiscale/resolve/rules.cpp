@@ -92,6 +92,13 @@ Broken end_of_no_use(const core::Scene& scene) {
   return Broken({std::string(core::name_of(scene.resolve.motion))});
 }
 
+/// Of laws for what the grid resolves here.
+Broken film_counted_twice(const core::Scene& scene) {
+  const auto law = scene.effects.find("lubrication");
+  if (!are_free(scene) || law == scene.effects.end() || law->second == "film") return {};
+  return Broken({law->second});
+}
+
 Broken nothing_to_fall_in(const core::Scene& scene) {
   if (!are_free(scene)) return {};
   if (!scene.fluid.present()) return Broken({"a fluid"});
@@ -174,6 +181,10 @@ std::vector<core::Rule> resolve_rules() {
       {{"resolve.until", "resolve.motion"},
        "resolve.until is the time of free spheres, and resolve.motion = \"{}\": leave out resolve.until",
        end_of_no_use},
+      {{"effects.lubrication", "resolve.motion"},
+       "effects.lubrication = \"{}\": resolve.motion = \"free\" resolves the flow between spheres; use \"film\" or "
+       "\"none\"",
+       film_counted_twice},
       {{"resolve.motion", "fluid.name", "column.gravity"}, "resolve.motion = \"free\" needs {}", nothing_to_fall_in},
       {{"species.density", "resolve.motion", "fluid.name", "fluid.density", "fluid.viscosity", "fluid.temperature"},
        "resolve.motion = \"free\": species '{}' is {} times as dense as the fluid; drag acts on free spheres one step "

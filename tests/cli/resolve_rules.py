@@ -14,6 +14,8 @@ RESOLVED = {
     "and its image: take {} or more": [*FREE, "resolve.spheres=2"],
     'resolve.motion = "{}": {}; leave out resolve.reynolds': ["resolve.motion=moving", "resolve.reynolds=[5]"],
     'resolve.until is the time of free spheres, and resolve.motion = "{}": leave out resolve.until': ["resolve.until=1"],
+    'effects.lubrication = "{}": resolve.motion = "free" resolves the flow between spheres; use "film" or "none"': [
+        *FREE, "effects.lubrication=wet_restitution"],
     'resolve.motion = "free" needs {}': ["resolve.motion=free", "column.gravity=0"],
     "resolve.motion = \"free\": species '{}' is {} times as dense as the fluid; drag acts on free spheres one step late, which is stable "
     "from {} times on": [*FREE, "species.fine.density=1050"],
