@@ -16,7 +16,7 @@ namespace polybed::hard {
 [[nodiscard]] std::vector<HardCase> column_cases();      // T13 T15 T26, on demand
 [[nodiscard]] std::vector<HardCase> demanding_cases();   // T11 T12 T18 T20 T21 T24, on demand
 [[nodiscard]] std::vector<HardCase> leaning_cases();     // T14, on demand
-[[nodiscard]] std::vector<HardCase> round_cases();       // T29 to T33
+[[nodiscard]] std::vector<HardCase> round_cases();       // T29 to T33, D16, C13
 [[nodiscard]] std::vector<HardCase> unit_cases();        // V12
 [[nodiscard]] std::vector<HardCase> particle_cases();    // D1 to D15
 [[nodiscard]] std::vector<HardCase> suspension_cases();  // C1, C4 to C10

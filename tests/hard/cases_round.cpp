@@ -1,8 +1,10 @@
-// Hard cases of tubes whose wall cuts cells: T29 to T33.
+// Hard cases of tubes whose wall cuts cells, T29 to T33, and of particles in a cone, D16 and C13.
 #include <cmath>
 
 #include "hard/cases.hpp"
+#include "hard/grains.hpp"
 #include "hard/scenes.hpp"
+#include "scenes/beads.hpp"
 
 namespace polybed::hard {
 
@@ -101,6 +103,64 @@ void carried_out(Trial& trial) {
                out / (out + measures::species_volumes(run->model().constants().grid, run->fields().solids)[0]));
 }
 
+/// 600 beads of 1 mm above the bottom of a cone of 60 degrees, which ends at a tube of 20 mm; dry.
+core::Scene beads_in_a_cone() {
+  core::Scene scene = scenes::dry_box(0.5e-3, {5e6, 0.25, 2500}, {0.02, 0.04, 0.02});
+  scene.column.shape = core::ColumnShape::cylinder;
+  scene.column.profile = {{0, 0.01}, {0.00866, 0.02}, {0.04, 0.02}};
+  scene.column.cells = {8, 16, 8};
+  scene.column.gravity = 9.81;
+  scene.bed.particles = {600};
+  scene.bed.solids_fraction = 0.6;
+  scene.bed.start_solids_fraction = 0.45;
+  core::set_friction(scene, 0.4);
+  core::set_restitution(scene, 0.5);
+  return scene;
+}
+
+/// Energy of motion over what lifts each by its radius.
+double unrest(const dem::Model& model) {
+  const double lift = double(model.particle_count()) * scenes::mass_of(0.5e-3, 2500) * 9.81 * 0.5e-3;
+  return dem::totals_of(model).kinetic / lift;
+}
+
+/// D16: beads fall into a cone, pack, and are held by its wall.
+void packed_in_a_cone(Trial& trial) {
+  const core::Scene scene = beads_in_a_cone();
+  core::Timers timers;
+  dem::Model model(scene, timers);
+  Grains(trial, model).until(0.4);
+  trial.measure("V6 energy of motion over that of rest", unrest(model), 1e-6);
+  double beyond = 0;
+  for (const dem::Place& place : model.particles().place)
+    beyond = std::max(beyond, model.box().within_side({place.x, 0.95 * place.radius}) ? 0.0 : 1.0);
+  trial.measure("beads beyond the wall", beyond, 0);
+}
+
+/// C13: water lifts the same beads out of their cone into the tube, and stops: they pack again, at rest in clear water.
+void lifted_from_a_cone(Trial& trial) {
+  core::Scene scene = beads_in_a_cone();
+  scene.fluid.name = "test fluid";
+  scene.fluid.density = 1000;
+  scene.fluid.viscosity = 1e-3;
+  scene.effects["drag"] = "gidaspow";
+  scene.dem.kernel = core::Kernel::bilinear;
+  scene.dem.fluid_every = 8;
+  scene.inlet.superficial_velocity = {{0.0, 0.15}, {0.15, 0.15}, {0.15, 0.0}};
+  core::Timers timers;
+  dem::Model model(scene, timers);
+  Grains grains(trial, model);
+  grains.until(0.15);
+  double drop = 0;
+  for (int n = 0; n < 10; ++n) {
+    grains.steps(8);
+    drop += model.coupling()->pressure_drop() / 10;
+  }
+  trial.report("pressure drop while it is lifted, Pa", drop);
+  grains.until(1.0);
+  trial.measure("V6 energy of motion over that of rest", unrest(model), 1e-4);
+}
+
 }  // namespace
 
 std::vector<HardCase> round_cases() {
@@ -109,7 +169,9 @@ std::vector<HardCase> round_cases() {
       {"T30", "tube: jets at 20 u_mf along its wall and through a merged cell", {}, all_schemes(), jets_at_the_wall},
       {"T31", "tube: settle to the maximum packing and hold", {"hard_packing"}, all_schemes(), packed_in_a_tube},
       {"T32", "tube: feed into a packed bed", {}, all_schemes(), feed_into_a_packed_bed},
-      {"T33", "tube: a bed carried out at the top", {}, all_schemes(), carried_out}};
+      {"T33", "tube: a bed carried out at the top", {}, all_schemes(), carried_out},
+      {"D16", "cone: beads fall in, pack and are held", {}, {{"particles", "", ""}}, packed_in_a_cone},
+      {"C13", "cone: beads lifted by water, let fall", {}, {{"coupled", "", ""}}, lifted_from_a_cone}};
 }
 
 }  // namespace polybed::hard
