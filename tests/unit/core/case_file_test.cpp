@@ -211,13 +211,10 @@ INSTANTIATE_TEST_SUITE_P(
 
 INSTANTIATE_TEST_SUITE_P(
     Removed, WrongCase,
-    testing::Values(
-        Wrong{"[effects]", "[tfm]\nmomentum = \"upwind\"\n[effects]",
-              "tfm.momentum = \"upwind\": allowed are auto | conservative | conservative_limited; (U.grad)U was "
-              "removed, take \"conservative\", of the same order"},
-        Wrong{"[effects]", "[tfm]\nstart_temperature = 1e-4\n[effects]",
-              "unknown key 'start_temperature' in [tfm]; a transported granular temperature starts from 1e-6 m2/s2 "
-              "now"}));
+    testing::Values(Wrong{
+        "[effects]", "[tfm]\nmomentum = \"upwind\"\n[effects]",
+        "tfm.momentum = \"upwind\": allowed are auto | conservative | conservative_limited; (U.grad)U was "
+        "removed, take \"conservative\", of the same order"}));
 
 /// Two classes at half and twice the median: the reader does not know the rule.
 std::vector<std::pair<double, double>> half_and_twice(const SizeDistribution& given) {
