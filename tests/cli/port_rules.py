@@ -25,6 +25,8 @@ PORTS = {
     "two discharges overlap: [[discharge]] number {} and {}": [part("discharge", ("left", *LOW), ("left", [0.03], [0.05]))],
     "[[discharge]] number {} overlaps [[{}]] number {}": [part("discharge", ("left", *LOW)), part("jet", ("right", *LOW), ("left", *LOW))],
     "[[discharge]] cannot act: column.closed = true": ["column.closed=true", part("discharge", ("left", *LOW))],
+    '[[discharge]] cannot act: fluid.name = "none"': ["fluid.name=none", part("discharge", ("left", *LOW))],
+    "[[discharge]] cannot act in a sheared box: its fluid moves with its flow": ["dem.shear_rate=1", part("discharge", ("left", *LOW))],
     "[[discharge]] number {} and [[feed]] number {} share a cell ({}): move them apart, or take smaller cells": [
         part("discharge", ("left", [0.02], [0.034])), part("feed", ("left", [0.036], [0.05]))],
 }

@@ -76,8 +76,8 @@ TEST(Gap, ExactSolutionHasItsLimits) {
   EXPECT_NEAR(exact(1e-3), 500 + 0.45 * std::log(1e3) + 1.35, 0.05);  // Jeffrey and Onishi 1984, XA11 - XA12
 }
 
-// The periodic images add 2 to 5 % here, the scatter over places 4 %. Without the film the forces of the last two are less
-// by 23 and 78 %.
+// The periodic images add 2 to 5 % here, the scatter over places 4 %. Without the film the forces of the last two are
+// less by 23 and 78 %.
 TEST(Gap, SpheresThatApproachHaveTheirForceWithTheFilm) {
   for (const double gap : {3.0, 0.5, 0.1})
     EXPECT_NEAR(resolved(gap) + film(gap), exact(gap / radius), 0.08 * exact(gap / radius)) << gap;
