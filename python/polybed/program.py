@@ -14,17 +14,20 @@ of its progress goes to standard error as it comes, unless quiet.
 
 from __future__ import annotations
 
+import contextlib
 import functools
 import itertools
 import json
+import math
 import os
+import tomllib
 from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 from typing import Any, ParamSpec, TypeVar
 
 from polybed.ending import NUMBERS
 from polybed.errors import ProgramError
-from polybed.files import FAULTS, read_json
+from polybed.files import FAULTS, MISFITS, read_json
 from polybed.overrides import Overrides, Value, plain, toml, words
 from polybed.progress import BarOfRuns, put, redrawn
 from polybed.read import Run, read
@@ -35,6 +38,9 @@ Place = str | os.PathLike[str]  # of a file or a folder
 
 MODELS = ("tfm", "dem")
 DIGITS = 10  # of a hash in the name of a folder
+STEADY = "steady"  # as `until`
+LONGEST_TO_STEADY = 20  # times run.until
+SAME_TIME = 1e-9  # relative difference of two times that are one
 
 
 Arguments = ParamSpec("Arguments")
@@ -87,13 +93,40 @@ def resolved(case: Place, overrides: Overrides | None, until: Value | None) -> t
     return found["case"], found["hash"]
 
 
-def finished(output: Path, model: str, text: str) -> bool:
-    """Whether a folder holds a finished run by this model of this very case. What is no whole record is of no finished run."""
+def record_in(output: Path) -> dict[str, Any]:
+    """The record of the run in a folder; empty if there is no whole one."""
     try:
-        record = read(output).record
+        return read(output).record
     except FAULTS:
-        return False
-    return bool(record) and (record["state"], record["model"], record.get("case")) == ("done", model, text)
+        return {}
+
+
+def finished(output: Path, model: str, text: str, to_steady: bool = False) -> bool:
+    """Whether a folder contains a finished run by this model of this very case, which has ended at run.until, or earlier because nothing
+    was left. to_steady: the run had to go on until its bed is steady instead"""
+    record, until = record_in(output), tomllib.loads(text)["run"]["until"]
+    with contextlib.suppress(*MISFITS):  # of a record that was edited
+        if (record["state"], record["model"], record["case"]) != ("done", model, text):
+            return False
+        steady = (record["card"] or {}).get("steady") is True
+        at_until = math.isclose(record["time_s"], until, rel_tol=SAME_TIME)
+        return steady or not at_until if to_steady else at_until or (record["time_s"] < until and not steady)
+    return False
+
+
+def physics(text: str) -> dict[str, Any]:
+    """A resolved case without its end and its output times, which may change when a run is resumed."""
+    return {part: keys for part, keys in tomllib.loads(text).items() if part not in ("run", "output")}
+
+
+def resumable(output: Path, model: str, text: str, to_steady: bool = False) -> bool:
+    """Whether the run in a folder can continue to run.until of a resolved case: it has a checkpoint, has not failed, is by this model and of
+    this case apart from `run.` and `output.` keys, and is not later than run.until already."""
+    record, until = record_in(output), tomllib.loads(text)["run"]["until"] * (LONGEST_TO_STEADY if to_steady else 1)
+    with contextlib.suppress(*MISFITS):
+        return (has_checkpoint(output) and record["model"] == model and not record["state"].startswith("failed") and
+                physics(record["case"]) == physics(text) and record["time_s"] <= until * (1 + SAME_TIME))
+    return False
 
 
 def name_of(case: Place) -> str:
@@ -118,14 +151,14 @@ def check(case: Place, overrides: Overrides | None = None, until: Value | None =
 def made(case: Place, model: str, overrides: Overrides | None, until: Value | None, ranks: int,
          tell: Callable[[str], None] | None, place: Callable[[str], Path], resume: bool = False,
          keep_failed: bool = False) -> Run:
-    """Opens the run that is in a folder, or makes it. place: the folder by the hash of the resolved case; resume: from its checkpoint;
-    keep_failed: returns a run whose numerics failed"""
+    """Opens the finished run that is in a folder, or makes it. place: the folder by the hash of the resolved case; resume: continues what is
+    resumable there and begins anew otherwise; keep_failed: returns a run whose numerics failed"""
     if model not in MODELS:
         raise ValueError(f"there is no model {model!r}; there are {', '.join(MODELS)}")
     text, digest = resolved(case, overrides, until)
-    output = place(digest[:DIGITS])
-    if not finished(output, model, text):
-        begin = "--resume" if resume and has_checkpoint(output) else "--force"
+    output, to_steady = place(digest[:DIGITS]), until == STEADY
+    if not finished(output, model, text, to_steady):
+        begin = "--resume" if resume and resumable(output, model, text, to_steady) else "--force"
         try:
             call(model, case, *settings(overrides, until), "-o", output, begin, "--no-picture", ranks=ranks, tell=tell)
         except ProgramError as error:
@@ -143,7 +176,9 @@ def run(case: Place, model: str = "tfm", overrides: Overrides | None = None, out
     output: run directory, where another run is replaced, and reading that one raises ReplacedError from then on; by default
     runs/<case name>-<model>-<hash of the resolved case>, so that no run replaces another
     quiet: shows no progress; label: stands before each line of it
-    resume: continues from the checkpoint in the folder, if there is one, as `--resume` does: after a run was killed, or with a longer `until`
+    resume: continues from the checkpoint in the folder, as `--resume` does: after a run was killed, or with a longer `until`. The run begins
+    anew, as without `resume`, if the one in the folder is by another model, differs in keys other than `run.` and `output.`, is later than
+    `until` already, or has failed
     """
     return made(case, model, overrides, until, ranks, teller(quiet, label),
                 lambda digest: Path(output) if output else folder_of(case, model, digest), resume)
@@ -158,7 +193,8 @@ def sweep(case: Place, key: str | Mapping[str, Iterable[Value]], values: Iterabl
 
     values: numbers in SI, texts with a unit, or an array along its first axis; until: simulated time, "20 s" or seconds
     at_once: how many run side by side; unless quiet, a bar says how far they are, or, where standard error is no terminal and no notebook, lines
-    resume: continues runs that were killed from their checkpoints; finished runs are opened in any case
+    resume: continues runs that were killed from their checkpoints, under the conditions of polybed.run; others begin anew, failed ones among
+    them; finished runs are opened in any case
     keep_failed: returns also runs whose numerics failed, code 3, of which `record["state"]` says why; otherwise the first one ends the sweep
     """
     axes = {key: values} if isinstance(key, str) else key

@@ -2,8 +2,11 @@
 """Results in Python with names and units, and commands as functions. Usage: python_results_test.py PROGRAM"""
 import contextlib
 import io
+import json
 import os
+import re
 import sys
+from unittest import mock
 
 import numpy as np
 
@@ -14,6 +17,7 @@ sys.path.insert(0, str(ROOT / "python"))
 import polybed  # noqa: E402
 import polybed.cost.picture  # noqa: E402, F401  the functions keep their names
 import polybed.fit.errors  # noqa: E402, F401
+import polybed.program as of_program  # noqa: E402
 
 CASE = ROOT / "cases/small-binary/case.toml"
 SHORT = {"output.every": "1 ms", "output.history_every": "0.1 ms"}
@@ -74,6 +78,69 @@ class Results(Scratch):
         self.assertAlmostEqual(run.history["time_s"][-1], 8e-3)
         swept = polybed.sweep(CASE, "tfm.rtol", [1e-3], overrides=keys, output=self.folder / "new", until="2 ms", quiet=True, resume=True)
         self.assertEqual(swept[0].record["state"], "done", "without a checkpoint a run begins")
+
+    def begins(self, folder, model="tfm", overrides=SHORT, until="8 ms"):
+        """The run that `resume` makes in a folder, and the first time of which it shows progress; None if it opened the run that was there."""
+        with contextlib.redirect_stderr(io.StringIO()) as shown:
+            run = polybed.run(CASE, model, overrides, folder, until, resume=True)
+        times = re.findall(r"(?m)^t ([\d.e-]+)/", shown.getvalue())
+        self.assertEqual((run.record["state"], run.record["model"]), ("done", model))
+        self.assertAlmostEqual(run.record["time_s"], float(until.split()[0]) / 1e3)
+        self.assertAlmostEqual(run.history["time_s"][-1], run.record["time_s"])
+        return run, float(times[0]) if times else None
+
+    def test_only_a_run_of_the_same_case_that_is_not_later_goes_on(self):
+        """What is in the folder reaches 4 ms; from its checkpoint a run shows no earlier time."""
+        keys = SHORT | {"output.checkpoint_every": "1 ms"}
+        for name, begin, model, overrides, until in (
+                ("the same", None, "tfm", {}, "4 ms"), ("longer", True, "tfm", {}, "8 ms"),
+                ("other output", True, "tfm", {"output.every": "2 ms"}, "8 ms"), ("shorter", False, "tfm", {}, "2 ms"),
+                ("another model", False, "dem", {}, "8 ms"), ("another case", False, "tfm", {"inlet.superficial_velocity": 0.03}, "8 ms"),
+                ("another method", False, "tfm", {"tfm.rtol": 2e-3}, "8 ms")):
+            with self.subTest(name):
+                folder = self.folder / name
+                before = polybed.run(CASE, "tfm", keys, folder, "4 ms", quiet=True)
+                written = (folder / "run.json").stat().st_mtime_ns
+                run, first = self.begins(folder, model, keys | overrides, until)
+                self.assertEqual((folder / "run.json").stat().st_mtime_ns == written, begin is None)
+                if begin is not None:
+                    self.assertEqual(first >= 4e-3, begin)
+                    with self.assertRaises(polybed.ReplacedError):
+                        before.record  # noqa: B018  another end is another case
+                self.assertEqual(run.history["time_s"][0], 0)
+
+    def test_a_killed_run_goes_on_and_a_failed_or_damaged_one_does_not(self):
+        folder, keys = self.folder / "run", SHORT | {"output.checkpoint_every": "1 ms"}
+        for state, goes_on in (("running", True), ("stopped by the user", True), ("failed: the pressure", False), (None, False)):
+            with self.subTest(state):
+                polybed.run(CASE, "tfm", keys, folder, "4 ms", quiet=True)
+                record = strict_json((folder / "run.json").read_text())
+                (folder / "run.json").write_text(json.dumps(record | {"state": state}))
+                self.assertEqual(self.begins(folder, overrides=keys)[1] >= 4e-3, goes_on)
+
+    def test_a_run_until_steady_is_not_that_of_a_time(self):
+        """Whether it ended there, or goes on, by the record of a run."""
+        folder, text = self.folder / "run", polybed.run(CASE, "tfm", SHORT, self.folder / "run", "4 ms", quiet=True).record["case"]
+        record = strict_json((folder / "run.json").read_text())
+        for time, steady, plain, to_steady in ((4e-3, False, True, False), (4e-3, True, True, True), (3e-3, True, False, True),
+                                               (3e-3, None, True, True), (9e-3, True, False, True), (8e-2, False, False, True)):
+            with self.subTest(time=time, steady=steady):
+                (folder / "run.json").write_text(json.dumps(record | {"time_s": time, "card": record["card"] | {"steady": steady}}))
+                self.assertEqual((of_program.finished(folder, "tfm", text), of_program.finished(folder, "tfm", text, True)), (plain, to_steady))
+                self.assertEqual(of_program.resumable(folder, "tfm", text), time <= 4e-3)
+                self.assertTrue(of_program.resumable(folder, "tfm", text, True))
+
+    def test_a_sweep_begins_failed_runs_anew(self):
+        """From the checkpoint of its failure a run would fail at once, without a row at the start."""
+        def swept(resume):
+            return polybed.sweep(CASE, "tfm.fixed_step", [0.2], overrides={"tfm.integrator": "explicit"}, output=self.folder, until="2 s",
+                                 quiet=True, resume=resume, keep_failed=True)[0]
+        with mock.patch.object(of_program, "call", wraps=of_program.call) as called:
+            failed = swept(False)
+            again = swept(True)
+        self.assertEqual([options[-2] for options, _ in called.call_args_list if options[0] == "tfm"], ["--force", "--force"])
+        self.assertEqual((again.directory, again.record["state"]), (failed.directory, failed.record["state"]))
+        self.assertRegex(again.record["state"], "^failed")
 
     def test_a_run_that_fails_ends_a_sweep_unless_it_is_kept(self):
         grid, fixed = {"tfm.fixed_step": [0.2, 5e-4]}, {"tfm.integrator": "explicit"}
