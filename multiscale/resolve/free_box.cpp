@@ -10,6 +10,7 @@
 #include "closures/sphere.hpp"
 #include "core/error.hpp"
 #include "dem/step_limits.hpp"
+#include "relevance/effects/lubrication.hpp"
 #include "relevance/fluid_properties.hpp"
 
 namespace polybed::multiscale {
@@ -27,6 +28,8 @@ core::Scene suspension(const core::Scene& scene, const SpherePacking& packing, d
   box.fluid = scene.fluid;
   box.material = scene.material;
   box.effects = scene.effects;
+  using namespace relevance::effects;
+  if (lubrication.has(box, of_unresolved_flow)) box.effects.erase(lubrication.role);  // chosen: the flow is resolved
   box.contact_pairs = scene.contact_pairs;
   box.dem = scene.dem;
   box.dem.opening.reset();

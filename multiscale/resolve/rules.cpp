@@ -2,12 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/case/resolve.hpp"
 #include "core/error.hpp"
 #include "multiscale/resolve/packing.hpp"
 #include "multiscale/resolve/plan.hpp"
+#include "relevance/effects/lubrication.hpp"
 #include "relevance/fluid_properties.hpp"
 
 namespace polybed::multiscale {
@@ -92,11 +94,14 @@ Broken end_of_no_use(const core::Scene& scene) {
   return Broken({std::string(core::name_of(scene.resolve.motion))});
 }
 
-/// Of laws for what the grid resolves here.
+/// A law for what the grid resolves here; one that is chosen is left out.
 Broken film_counted_twice(const core::Scene& scene) {
-  const auto law = scene.effects.find("lubrication");
-  if (!are_free(scene) || law == scene.effects.end() || law->second == "film") return {};
-  return Broken({law->second});
+  using namespace relevance::effects;
+  const auto& chosen = scene.chooser.chosen;
+  if (!are_free(scene) || !lubrication.has(scene, of_unresolved_flow) ||
+      std::find(chosen.begin(), chosen.end(), lubrication.role) != chosen.end())
+    return {};
+  return Broken({core::law_of(scene, lubrication.role)});
 }
 
 Broken nothing_to_fall_in(const core::Scene& scene) {

@@ -34,6 +34,8 @@ inline std::optional<EffectRow> weigh_lubrication(const Weighing& by, EffectRow 
   return row;
 }
 
+inline constexpr Trait of_unresolved_flow{"stands for the flow between particles"};
+
 inline const Effect lubrication{.role = "lubrication",
                                 .help = "fluid that is squeezed out between particles that meet",
                                 .absent = "part of the solids stress in the two-fluid model",
@@ -44,6 +46,7 @@ inline const Effect lubrication{.role = "lubrication",
                                 .rules = {needs_a_fluid("lubrication")},
                                 .number = "least St*",
                                 .phrase = "the fluid between particles damps impacts: Stokes number {}",
-                                .weigh = weigh_lubrication};
+                                .weigh = weigh_lubrication,
+                                .traits = {{&of_unresolved_flow, {"wet_restitution"}}}};
 
 }  // namespace polybed::relevance::effects
