@@ -24,7 +24,6 @@ constexpr Removed removed[] = {
     {"tfm.friction_angle", "", "it is 28.5 degrees now"},
     {"tfm.momentum", "upwind", "(U.grad)U was removed, take \"conservative\", of the same order"},
     {"tfm.momentum", "limited", "(U.grad)U was removed, take \"conservative_limited\", of the same order"},
-    {"tfm.start_temperature", "", "a transported granular temperature starts from 1e-6 m2/s2 now"},
     {"tfm.wall_restitution", "", "it is 0.9 now"},
 };
 

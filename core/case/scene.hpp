@@ -227,6 +227,7 @@ struct Tfm {
   double least_shear_rate = 1;           ///< gamma_0 of the frictional viscosity, 1/s
   KineticTheory kinetic_theory = KineticTheory::garzo_dufty;
   RadialDistribution radial_distribution = RadialDistribution::torquato;
+  double start_temperature = 1e-6;           ///< theta_j at the start where it is transported, m2/s2
   double specularity = 0.1;                  ///< s of Johnson and Jackson's wall
   double wall_friction = 0.2;                ///< tan(delta_w) of Johnson and Jackson's wall
   double exchange_pressure = 0;              ///< C_s of species exchange, s/m2

@@ -52,6 +52,8 @@ Table tfm_table() {
           key(&Tfm::radial_distribution, "radial_distribution",
               help("g0 of solids_stress = kinetic; torquato: above 0.49 growing towards 0.64"),
               equation("g0 = (1 - phi/2)/(1 - phi)^3; above 0.49 CS(0.49) 0.15/(0.64 - phi)")),
+          key(&Tfm::start_temperature, "start_temperature", dimension::speed_squared, range(0, 1e6),
+              help("theta_j at the start, for granular_temperature = transported")),
           key(&Tfm::specularity, "specularity", range(0, 1),
               help("s: share of tangential momentum that a collision with the wall takes; solids_wall = "
                    "johnson_jackson with kinetic stress")),

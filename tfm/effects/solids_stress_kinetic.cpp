@@ -20,8 +20,7 @@ namespace {
 /// sqrt(theta) that rounds off the slip production at 0, over that of neighbours in the least shear: 0.1 mm/s for 1 mm
 /// at 1 1/s.
 constexpr double least_agitation = 0.1;
-constexpr double wall_restitution = 0.9;    ///< e_w of collisions with Johnson and Jackson's wall
-constexpr double start_temperature = 1e-6;  ///< theta_j at the start where it is transported, m2/s2
+constexpr double wall_restitution = 0.9;  ///< e_w of collisions with Johnson and Jackson's wall
 
 }  // namespace
 
@@ -44,7 +43,8 @@ KineticStress::KineticStress(const core::Scene& scene, const Constants& constant
   if (scene.tfm.solids_wall == core::SolidsWall::johnson_jackson) fields.stress.wall = core::make_field(constants.grid);
   if (!transported) return;
   fields.solids.temperature_rate = fields.granular.conductivity = fields.granular.decay = per_species;
-  for (core::Field& theta : fields.solids.temperature) std::fill(theta.begin(), theta.end(), start_temperature);
+  for (core::Field& theta : fields.solids.temperature)
+    std::fill(theta.begin(), theta.end(), scene.tfm.start_temperature);
   for (int axis = 0; axis < constants.grid.dimensions; ++axis)
     conduction_diagonal_ += 2 / std::pow(constants.grid.spacing[std::size_t(axis)], 2);
 }
