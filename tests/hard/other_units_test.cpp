@@ -28,12 +28,12 @@ TEST(OtherUnits, HaveTheNumbersThatAHandFinds) {
   EXPECT_EQ(other.column.cells, scene.column.cells);
 }
 
-// In centimetres, grams and seconds: 1 Pa is 10 dyn/cm2, 1 Pa s 10 P, 1 m3/s 1e6 cm3/s.
+// In centimetres, grams and seconds: 1 Pa is 10 dyn/cm2, 1 Pa s 10 P, 1 m2/s2 1e4 cm2/s2.
 TEST(OtherUnits, OfCentimetresGramsAndSeconds) {
   const UnitSystem cgs{"cm, g, s", 1e2, 1e3, 1};
   EXPECT_DOUBLE_EQ(number_of_one(core::dimension::pressure, cgs), 10);
   EXPECT_DOUBLE_EQ(number_of_one(core::dimension::viscosity, cgs), 10);
-  EXPECT_DOUBLE_EQ(number_of_one(core::dimension::volume_rate, cgs), 1e6);
+  EXPECT_DOUBLE_EQ(number_of_one(core::dimension::speed_squared, cgs), 1e4);
   EXPECT_DOUBLE_EQ(number_of_one(core::dimension::none, cgs), 1);
 }
 
