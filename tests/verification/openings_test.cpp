@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "closures/drag_cello.hpp"
+#include "scenes/ledgers.hpp"
 #include "scenes/record.hpp"
 
 namespace polybed::scenes {
@@ -10,33 +11,6 @@ namespace {
 
 class Openings : public testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(Integrators, Openings, testing::Values("explicit", "imex", "implicit"));
-
-/// Largest relative error of the ledgers of the species; the model shows its last state.
-double ledger_error(const tfm::Model& model, const std::vector<double>& start) {
-  const std::vector<double> now = measures::species_volumes(model.constants().grid, model.fields().solids);
-  const std::vector<fluid::Passed> passed = model.passed();
-  double worst = 0;
-  for (std::size_t j = 0; j < now.size(); ++j)
-    worst = std::max(worst, measures::ledger_error(start[j], passed[j].in, passed[j].out, now[j]));
-  return worst;
-}
-
-std::vector<double> volumes(tfm::Model& model) {
-  model.show(model.time());
-  return measures::species_volumes(model.constants().grid, model.fields().solids);
-}
-
-/// Steps to a time, as a run does: past each breakpoint of what flows in by a restart.
-void advance_past_breakpoints(tfm::Model& model, double until) {
-  while (model.time() < until) {
-    double stop = until;
-    for (const double breakpoint : model.breakpoints())
-      if (breakpoint > model.time()) stop = std::min(stop, breakpoint);
-    while (model.time() < stop) model.step(stop);
-    model.restart();
-  }
-  model.show(until);
-}
 
 constexpr double transport_height = 0.1, transport_fraction = 0.05, transport_flux = 0.06;
 

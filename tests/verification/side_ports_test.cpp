@@ -1,5 +1,6 @@
 // Fluid and solids through the sides of a column: every level carries what has come in below it, what enters and leaves
 // is counted to round-off, and left and right, front and back, differ in nothing but their names.
+#include "scenes/ledgers.hpp"
 #include "scenes/record.hpp"
 
 namespace polybed::scenes {
@@ -12,32 +13,6 @@ class SidePorts : public testing::TestWithParam<const char*> {
   static core::TfmIntegrator integrator() { return core::choice_of<core::TfmIntegrator>(GetParam()); }
 };
 INSTANTIATE_TEST_SUITE_P(Integrators, SidePorts, testing::Values("explicit", "imex", "implicit"));
-
-/// Steps to a time, as a run does: past each breakpoint of what flows in by a restart.
-void advance_by_events(tfm::Model& model, double until) {
-  while (model.time() < until) {
-    double stop = until;
-    for (const double breakpoint : model.breakpoints())
-      if (breakpoint > model.time()) stop = std::min(stop, breakpoint);
-    while (model.time() < stop) model.step(stop);
-    model.restart();
-  }
-  model.show(until);
-}
-
-std::vector<double> volumes_of(tfm::Model& model) {
-  model.show(model.time());
-  return measures::species_volumes(model.constants().grid, model.fields().solids);
-}
-
-double worst_ledger(const tfm::Model& model, const std::vector<double>& start) {
-  const std::vector<double> now = measures::species_volumes(model.constants().grid, model.fields().solids);
-  const std::vector<fluid::Passed> passed = model.passed();
-  double worst = 0;
-  for (std::size_t j = 0; j < now.size(); ++j)
-    worst = std::max(worst, measures::ledger_error(start[j], passed[j].in, passed[j].out, now[j]));
-  return worst;
-}
 
 /// Greatest difference of a field on faces from a value, on the owned faces of its axis.
 double farthest(const core::Grid& grid, const core::Field& field, int axis, double value) {
@@ -63,8 +38,8 @@ TEST_P(SidePorts, ACrossFlowIsUniform) {
   scene.tfm.integrator = integrator();
   core::Timers timers;
   tfm::Model model(scene, timers);
-  const std::vector<double> start = volumes_of(model);
-  advance_by_events(model, 2.0);  // two and a half passages
+  const std::vector<double> start = volumes(model);
+  advance_past_breakpoints(model, 2.0);  // two and a half passages
   const core::Grid& grid = model.constants().grid;
   const double across = farthest(grid, model.fields().fluid.flux[0], 0, speed),
                upward = farthest(grid, model.fields().fluid.flux[1], 1, 0),
@@ -88,7 +63,7 @@ TEST_P(SidePorts, ACrossFlowIsUniform) {
   const double through = fraction * speed * 0.06 * grid.spacing[2] * 2.0;
   EXPECT_NEAR(model.passed()[0].in / through, 1, 1e-10);
   EXPECT_NEAR(model.passed()[0].out / through, 1, most / fraction);
-  EXPECT_LT(worst_ledger(model, start), 1e-12);
+  EXPECT_LT(ledger_error(model, start), 1e-12);
 }
 
 /// Two species under an open outlet; a jet and a feed in the left side, a jet in the right one and a discharge there
@@ -116,10 +91,10 @@ TEST_P(SidePorts, TheLedgerClosesWhateverTheSteps) {
   core::Timers timers;
   const core::Scene scene = busy_sides(integrator());
   tfm::Model model(scene, timers);
-  const std::vector<double> start = volumes_of(model);
-  advance_by_events(model, 0.3);
-  record("ledger", worst_ledger(model, start));
-  EXPECT_LT(worst_ledger(model, start), 1e-12);
+  const std::vector<double> start = volumes(model);
+  advance_past_breakpoints(model, 0.3);
+  record("ledger", ledger_error(model, start));
+  EXPECT_LT(ledger_error(model, start), 1e-12);
   const std::vector<fluid::Passed> passed = model.passed();
   const double exact = integrator() == core::TfmIntegrator::explicit_steps ? 1e-12 : 1e-2, depth = scene.column.size[2];
   EXPECT_NEAR(passed[0].in / (4.4e-6 * depth), 1, exact);
@@ -130,7 +105,7 @@ TEST_P(SidePorts, TheLedgerClosesWhateverTheSteps) {
   EXPECT_LT(out, 0.62);
   model.step(1.0);
   model.show(0.5 * (0.3 + model.time()));  // dense output keeps sums, too
-  EXPECT_LT(worst_ledger(model, start), 1e-12);
+  EXPECT_LT(ledger_error(model, start), 1e-12);
 }
 
 // A discharge in the bottom beside the left side, through which solids are fed: their faces at the corner have one
@@ -140,10 +115,10 @@ TEST_P(SidePorts, NothingIsLostWhereTwoMeetInACorner) {
   core::Scene scene = busy_sides(integrator());
   scene.discharges.push_back({ColumnFace::bottom, {0.0}, {0.006}, {{0.0, 0.01}}});
   tfm::Model model(scene, timers);
-  const std::vector<double> start = volumes_of(model);
-  advance_by_events(model, 0.12);
+  const std::vector<double> start = volumes(model);
+  advance_past_breakpoints(model, 0.12);
   EXPECT_GT(model.passed()[0].in, 0);
-  EXPECT_LT(worst_ledger(model, start), 1e-12);
+  EXPECT_LT(ledger_error(model, start), 1e-12);
 }
 
 // Through the middle third of the bottom a bed is emptied: by 0.01 x 0.01 x 0.5 of the settled bed's fraction at most.
@@ -155,9 +130,9 @@ TEST_P(SidePorts, ADischargeInTheBottomEmptiesTheBed) {
   scene.discharges.push_back({ColumnFace::bottom, {0.01}, {0.02}, {{0.0, 0.01}}});
   core::Timers timers;
   tfm::Model model(scene, timers);
-  const std::vector<double> start = volumes_of(model);
-  advance_by_events(model, 0.5);
-  EXPECT_LT(worst_ledger(model, start), 1e-12);
+  const std::vector<double> start = volumes(model);
+  advance_past_breakpoints(model, 0.5);
+  EXPECT_LT(ledger_error(model, start), 1e-12);
   const std::vector<fluid::Passed> passed = model.passed();
   EXPECT_EQ(passed[0].in + passed[1].in, 0);
   const double drawn = 0.01 * 0.01 * 0.5 * scene.column.size[2], out = (passed[0].out + passed[1].out) / drawn;
@@ -181,7 +156,7 @@ TEST_P(SidePorts, EveryLevelCarriesWhatHasComeInBelow) {
     double time, left, feed, right, above;  // velocities of the ports, m/s
   };
   for (const At& now : {At{0.05, 0.05, 0.002, 0.01, 0}, At{0.3, 0.1, 0.001, 0.04, 0.02}}) {
-    advance_by_events(model, now.time);
+    advance_past_breakpoints(model, now.time);
     const double bottom = 0.02, jet = bottom + 0.012 / 0.03 * now.left, below_feed = jet - 0.014 / 0.03 * 0.01,
                  fed = below_feed + 0.008 / 0.03 * now.feed,
                  top = fed + 0.005 / 0.03 * now.right - 0.01 / 0.03 * now.above;
@@ -196,11 +171,11 @@ TEST_P(SidePorts, AResumedRunGivesTheSameBits) {
   core::Timers timers;
   const core::Scene scene = busy_sides(integrator());
   tfm::Model through(scene, timers), resumed(scene, timers);
-  advance_by_events(through, 0.12);
+  advance_past_breakpoints(through, 0.12);
   through.restart();
   resumed.resume(through.checkpoint());
-  advance_by_events(through, 0.25);
-  advance_by_events(resumed, 0.25);
+  advance_past_breakpoints(through, 0.25);
+  advance_past_breakpoints(resumed, 0.25);
   EXPECT_EQ(through.checkpoint().arrays.at("state"), resumed.checkpoint().arrays.at("state"));
   EXPECT_GT(resumed.passed()[1].out, 0);
   EXPECT_EQ(through.passed()[1].out, resumed.passed()[1].out);
@@ -226,8 +201,8 @@ TEST_P(SidePorts, LeftAndRightAreMirrorImages) {
   tfm::Model one(scene, timers);
   swap_left_and_right(scene);
   tfm::Model other(scene, timers);
-  advance_by_events(one, 0.09);
-  advance_by_events(other, 0.09);
+  advance_past_breakpoints(one, 0.09);
+  advance_past_breakpoints(other, 0.09);
   const core::Grid& grid = one.constants().grid;
   double phi = 0, flux = 0;
   for (int j = 0; j < 40; ++j)
@@ -268,9 +243,9 @@ core::Scene turned(core::TfmIntegrator integrator, bool along_depth) {
 TEST_P(SidePorts, WidthAndDepthAreAlike) {
   core::Timers timers;
   tfm::Model one(turned(integrator(), false), timers), other(turned(integrator(), true), timers);
-  const std::vector<double> start = volumes_of(one);
-  advance_by_events(one, 0.05);
-  advance_by_events(other, 0.05);
+  const std::vector<double> start = volumes(one);
+  advance_past_breakpoints(one, 0.05);
+  advance_past_breakpoints(other, 0.05);
   const core::Grid &grid = one.constants().grid, &swapped = other.constants().grid;
   double phi = 0, flux = 0;
   for (int k = 0; k < 4; ++k)
@@ -287,7 +262,7 @@ TEST_P(SidePorts, WidthAndDepthAreAlike) {
   EXPECT_LT(phi, 1e-12);
   EXPECT_GT(one.passed()[1].out, 0);
   EXPECT_NEAR(one.passed()[0].in / (0.014 * 0.01 * 0.003 * 0.05), 1, 1e-10);
-  EXPECT_LT(worst_ledger(one, start), 1e-12);
+  EXPECT_LT(ledger_error(one, start), 1e-12);
 }
 
 // Air that can be compressed: what its jets bring and the discharge takes is in its account, the solids' too.
@@ -309,7 +284,7 @@ TEST(SidePortsOfAGas, AreInItsAccount) {
     scene.tfm.integrator = core::choice_of<core::TfmIntegrator>(integrator);
     core::Timers timers;
     tfm::Model model(scene, timers);
-    const std::vector<double> start = volumes_of(model);
+    const std::vector<double> start = volumes(model);
     advance(model, 0.02);
     const auto account = model.fluid_account(model.time());
     ASSERT_TRUE(account);
@@ -319,7 +294,7 @@ TEST(SidePortsOfAGas, AreInItsAccount) {
     EXPECT_LT(error, 1e-3);  // the invariant's limit
     EXPECT_GT(account->in, 0.2 * account->start);
     EXPECT_GT(model.passed()[0].out, 0);
-    EXPECT_LT(worst_ledger(model, start), 1e-12);
+    EXPECT_LT(ledger_error(model, start), 1e-12);
   }
 }
 
