@@ -115,6 +115,12 @@ void Openings::for_each_face(const std::vector<Gate>& gates, Body&& body) const 
   }
 }
 
+core::FaceField Openings::make_passed() const {
+  core::FaceField passed;
+  for (const Passage& passage : passages_) passed[std::size_t(axis_of(passage.at))] = core::make_field(grid_);
+  return passed;
+}
+
 bool Openings::in_sides() const {
   return std::any_of(passages_.begin(), passages_.end(), [](const Passage& p) { return is_side(p.at); });
 }

@@ -39,6 +39,8 @@ class Openings {
 
   /// Whether solids cross a side.
   [[nodiscard]] bool in_sides() const;
+  /// A field on the faces of the axes that passages lie across, 0 all over; empty on others.
+  [[nodiscard]] core::FaceField make_passed() const;
   /// Velocities on fed faces: those of the feed; on faces of a discharge those of the mixture that leaves.
   void set_velocities(double t, Interphase& solids) const;
   /// Ghost fractions beyond fed faces, so that the mean on the face is that of the feed, F_j/U_j; in sides ghosts of

@@ -168,8 +168,7 @@ std::vector<std::string> scene_warnings(const core::Scene& scene) {
   warn_of_downflow(scene, fluid, warnings);
   if (scene.column.gravity > 0) warn_of_floating_species(scene, density, warnings);
   warn_of_fast_gas(scene, density, warnings);
-  constexpr double greatest_density_of_gas = 100;  // kg/m3; liquids begin far above
-  if (scene.column.around_axis() && density < greatest_density_of_gas)
+  if (scene.column.around_axis() && density < relevance::lightest_liquid)
     warnings.push_back(
         "column.shape = \"axisymmetric\": a bubble in the gas is a ring about the axis there, and height and swings "
         "of a bubbling bed differ from those in a tube; \"cylinder\" resolves bubbles");

@@ -22,10 +22,7 @@ Fields::Fields(const Constants& constants)
       flux_rate(constants.grid) {
   solids.carry_pressure = !constants.form_b;
   if (!constants.openings.present()) return;
-  core::FaceField nothing;
-  for (const fluid::Openings::Passage& passage : constants.openings.passages())
-    nothing[std::size_t(axis_of(passage.at))] = core::make_field(constants.grid);
-  solids.passed.assign(constants.species(), nothing);
+  solids.passed.assign(constants.species(), constants.openings.make_passed());
   solids.passed_rate = solids.passed;
 }
 

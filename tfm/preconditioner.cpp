@@ -34,7 +34,7 @@ Preconditioner::Preconditioner(const Constants& constants, const fluid::Boundari
       slope_(core::make_field(constants.grid)),
       elastic_(slope_.size(), 1.0),
       fraction_residual_(constants.species(), core::make_field(constants.grid)),
-      passed_residual_(constants.openings.present() ? constants.species() : 0, core::make_face_field(constants.grid)),
+      passed_residual_(constants.species(), constants.openings.make_passed()),
       pressure_residual_(core::make_field(constants.grid)),
       source_p_(core::make_field(constants.grid)),
       source_s_(core::make_field(constants.grid)),

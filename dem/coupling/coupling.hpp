@@ -131,6 +131,7 @@ class Coupling final : public KeptPart {
   void require_voidage() const;
   void smooth(core::FaceField& field) const;
   void smooth_sums();
+  [[nodiscard]] bool has_sloping_walls() const;
   void slip(core::FaceField& velocity) const;
   void correct(Particles& particles);
   void couple_two_way(Particles& particles);

@@ -30,11 +30,13 @@ void Coupling::smooth_sums() {
     smooth(*field);
 }
 
-/// Along a sloping wall, which is stairs of cells: on the faces that it closes particles see the upright velocity of
-/// the open ones beside them, or what lies along it would feel half of the flow.
+bool Coupling::has_sloping_walls() const { return flow_.grid().metric && flow_.grid().metric->tapered(); }
+
+/// A sloping wall is stairs of cells. On faces that it closes particles see the upright velocity of the open faces
+/// beside them; otherwise those along the wall would feel half of the flow.
 void Coupling::slip(core::FaceField& velocity) const {
   const core::Grid& grid = flow_.grid();
-  if (!grid.metric || !grid.metric->tapered()) return;
+  if (!has_sloping_walls()) return;
   for (int axis = 0; axis < grid.dimensions; ++axis) flow_.boundaries().join(velocity[1], axis);
   const core::Field stairs = velocity[1];
   velocity[1] = fluid::slipping(grid, flow_.boundaries(), stairs, 1);
@@ -115,8 +117,9 @@ void Coupling::let_go(const Outflow& outflow, const Particles& particles) {
 
 /// What this rank's particles see of the fluid.
 void Coupling::fetch() {
-  core::FaceField velocity = flow_.state().velocity;
-  slip(velocity);
+  core::FaceField slipping;
+  if (has_sloping_walls()) slip(slipping = flow_.state().velocity);
+  const core::FaceField& velocity = has_sloping_walls() ? slipping : flow_.state().velocity;
   std::vector<std::pair<const Field*, Field*>> fields;
   for (std::size_t j = 0; j < fraction_.size(); ++j) fields.push_back({&fraction_[j], &fraction_here_[j]});
   for (std::size_t a = 0; a < std::size_t(flow_.grid().dimensions); ++a) {

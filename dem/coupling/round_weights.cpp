@@ -12,8 +12,8 @@ namespace {
 /// Farther from the wall, in cells, g = 1: there cells are whole, and so are those around them.
 constexpr int cells_to_fit = 3;
 
-/// Places along both horizontal axes of a cell by which g is fitted: where all layers are alike, and at the heights at
-/// which those of a tapered column are looked at, each with its own, so that a straight wall is not met at few places.
+/// Sample places along each horizontal axis of a cell for the fit of g. In a tapered column each layer is sampled at
+/// three heights, with another number at each, so that the samples do not line up along a straight wall.
 constexpr std::array<int, 1> points{16};
 constexpr std::array<int, 3> points_of_tapered{4, 6, 8};
 

@@ -23,7 +23,6 @@ namespace {
 
 using closures::CarriedBed;
 
-constexpr double greatest_density_of_gas = 100;  // kg/m3; liquids begin far above
 
 /// Constant before the first point and after the last, linear between.
 double value_at(const std::vector<std::pair<double, double>>& points, double time) {
@@ -176,7 +175,7 @@ void expect(const core::Scene& scene, const Balance& balance, std::vector<double
     other.law = relevance::drag_law_named(one.law);
     one.height = height_by(other);
   }
-  const bool bubbles = fluid.density < greatest_density_of_gas;
+  const bool bubbles = fluid.density < relevance::lightest_liquid;
   const bool packed_start = scene.bed.start_solids_fraction == scene.bed.solids_fraction;
   if (!bubbles && packed_start && bed.leaving.empty() && !scene.column.is_tapered())
     bed.rising_time = rising_time(bed, settled, scene.column.size[1]);
@@ -234,11 +233,11 @@ BedOfCase bed_without_expansion(const core::Scene& scene) {
     if (excess != 0 && gravity > 0)
       (excess > 0 ? one.terminal : one.rising) =
           closures::settling_velocity(species.diameter, std::abs(excess), fluid.density, fluid.viscosity, gravity);
-    if (fluid.density < greatest_density_of_gas) one.geldart = geldart_class(species.diameter, excess);
+    if (fluid.density < relevance::lightest_liquid) one.geldart = geldart_class(species.diameter, excess);
   }
   const std::vector<double> share = shares_of(scene);
   if (share.empty()) return bed;
-  const bool gas = fluid.density < greatest_density_of_gas;
+  const bool gas = fluid.density < relevance::lightest_liquid;
   const CarriedBed mixture = mixture_of(scene, share, fluid, gravity);
   bed.own = {balance.name, balance.minimum_fluidisation(mixture), {}};
   const bool flows = !scene.column.closed && !(scene.inlet.superficial_velocity.empty() && scene.jets.empty());
