@@ -266,7 +266,7 @@ void print_composition(const core::Scene& scene, const closures::DragLaw& law, c
                                          {"composition", rows}}));
 }
 
-/// Why two species never change places, if their sizes and densities tell.
+/// Why two species never change places, for the message; empty if sizes and densities do not decide it.
 std::string reason_of(const core::Scene& scene) {
   const bool first = scene.species[0].diameter > scene.species[1].diameter;
   const core::Species &larger = scene.species[first ? 0 : 1], &smaller = scene.species[first ? 1 : 0];

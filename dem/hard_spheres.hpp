@@ -30,8 +30,8 @@ struct Region {
   void move_within_side(Vector& x) const;
   /// The box that places are drawn from which are then mapped into a round one: as high as its volume demands.
   [[nodiscard]] Region even() const;
-  /// Where a place in that box goes as it is mapped to the round one, equal volumes to equal ones: the concentric map
-  /// of Shirley and Chiu (J. Graphics Tools 2 (3), 1997, 45), drawn in where the side is narrower.
+  /// Maps a place in that box into the round one, equal volumes to equal volumes: the concentric map of Shirley and
+  /// Chiu (J. Graphics Tools 2 (3), 1997, 45), scaled to the radius at its height.
   [[nodiscard]] Vector mapped_within_side(const Vector& x) const;
 
  private:

@@ -38,8 +38,8 @@ std::vector<std::string> profile_names(const Model& model, const measures::Slabs
   return names;
 }
 
-/// Weight of the particles less that of the fluid that they displace, if there is one, over the local area, Pa: a
-/// sloping wall bears what the particles above it weigh, or presses from above.
+/// Weight of the particles less the weight of the fluid that they displace, each over the cross-section at its height,
+/// Pa. In a tapered column this is what the fluid must carry: the walls bear the rest, or press from above.
 double weight_of(const Model& model, const measures::Bed& bed, double area) {
   double weight = 0;
   for (std::size_t j = 0; j < bed.mass.size(); ++j) {

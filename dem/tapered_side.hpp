@@ -10,7 +10,7 @@ namespace polybed::dem {
 
 class TaperedSide {
  public:
-  /// Absent: the side of a box is even, or there is none.
+  /// Of a column whose diameter does not change: false as a bool.
   TaperedSide() = default;
   explicit TaperedSide(const core::Column& column);
 

@@ -23,7 +23,7 @@ bool is_all(const Part& part) {
   return !std::is_same_v<Part, Jet> && part.from.empty() && part.to.empty();
 }
 
-/// Where corners lie: those of a layer are as on the bottom.
+/// The end or side that the corners of a part refer to; for a layer, the bottom.
 template <class Part>
 ColumnFace place_of(const Part& part) {
   if constexpr (requires { part.at; }) return part.at;
