@@ -23,7 +23,6 @@ namespace {
 
 using closures::CarriedBed;
 
-
 /// Constant before the first point and after the last, linear between.
 double value_at(const std::vector<std::pair<double, double>>& points, double time) {
   if (points.empty()) return 0;
