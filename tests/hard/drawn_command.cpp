@@ -22,11 +22,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double cpu_each = 2;  // s
 constexpr std::array<Outcome, 4> outcomes{Outcome::pass, Outcome::degraded, Outcome::refused, Outcome::fail};
 
 /// What comes of a draw alone.
-Result result_of_draw(const Draw& draw) { return results_of({case_text(draw)}, 1, cpu_each).front(); }
+Result result_of_draw(const Draw& draw, double cpu) { return results_of({case_text(draw)}, 1, cpu).front(); }
 
 /// What came of each draw that has ended, by its number.
 using Results = std::map<std::uint64_t, Result>;
@@ -69,10 +68,10 @@ void keep_least_cases(const Options& options, const Results& results, const fs::
     const std::string kind = kind_of(result);
     if (result.outcome != Outcome::fail || shown.contains(kind)) continue;
     const Draw least = shrunk(draw_of(options.seed, n), [&](const Draw& draw) {
-      const Result now = result_of_draw(draw);
+      const Result now = result_of_draw(draw, options.cpu);
       return now.outcome == Outcome::fail && kind_of(now) == kind;
     });
-    shown[kind] = keep({n, least, result_of_draw(least)}, options.seed, found).string();
+    shown[kind] = keep({n, least, result_of_draw(least, options.cpu)}, options.seed, found).string();
     if (!options.json) core::print("{} (draw {}), as a least case: {}\n", kind, n, shown[kind]);
   }
 }
@@ -101,7 +100,7 @@ core::ExitCode run_drawn(const Options& options) {
                 r.worst.value, r.worst.limit, r.cause);
     std::fflush(stdout);
   };
-  (void)results_of(texts, options.jobs, cpu_each, seen);
+  (void)results_of(texts, options.jobs, options.cpu, seen);
   core::write_atomically(directory / "fuzz.json", fuzz_text(options, results));
   keep_least_cases(options, results, directory);
   if (options.json) core::print("{}", fuzz_text(options, results));

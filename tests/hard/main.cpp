@@ -20,6 +20,8 @@ core::ExitCode run(int argc, char** argv) {
   app.add_option("--draw", options.draw, "these drawn scenes alone, numbers separated by commas, e.g. 738,965")
       ->delimiter(',');
   app.add_option("--seed", options.seed, "of the draws");
+  app.add_option("--cpu", options.cpu, "s of computing after which a drawn scene ends where it is")
+      ->capture_default_str();
   app.add_option("-j,--jobs", options.jobs, "cells at once")->check(CLI::Range(1, 256));
   app.add_option("-o,--output", options.output, "default runs/stability");
   app.add_flag("--json", options.json, "one JSON object on standard output, nothing else there");

@@ -17,6 +17,7 @@ struct Options {
   int jobs = 1;
   std::uint64_t draws = 0, seed = 1;  ///< of --fuzz: scenes drawn in the place of the catalogue
   std::vector<std::uint64_t> draw;    ///< of --draw: these alone, by their numbers
+  double cpu = 2;                     ///< s that a drawn scene may compute
   bool oracles = false, json = false;
 };
 
