@@ -17,7 +17,7 @@ from polybed.study.output_folder import taken
 from polybed.study.record import json_text, remark
 from polybed.validation import report
 from polybed.validation.entries import MODELS, NO_RUN, entry_named, folder, names
-from polybed.validation.numbers import UNDECIDED, Undecided, inversion_interval, inversion_of, measured_number, run_number, verdict
+from polybed.validation.numbers import UNDECIDED, Undecided, inversion_interval, inversion_of, measured_number, of_seeds, verdict
 
 DIGITS = 8  # of the hash of a case in the name of a folder
 AT_MOST = 300.0  # CPU seconds of an entry that runs without being named
@@ -31,18 +31,20 @@ def row_of(entry, of, model, compare, judged, cpu):
     """judged: (measured, result, verdict, joint half-width, reason)"""
     measured, result, found, joint, reason = judged
     return {"entry": entry.name, "run": of.name, "model": model, "quantity": compare["quantity"], "unit": compare["unit"],
-            "measured": part_of(measured), "result": part_of(result), "joint": joint, "verdict": found, "reason": reason, "cpu_s": cpu}
+            "measured": part_of(measured), "result": part_of(result), "runs": result.repeats if result else 1, "joint": joint,
+            "verdict": found, "reason": reason, "cpu_s": cpu}
 
 
-def made(options, entry, of, model):
+def made(options, entry, of, model, seed):
     """Runs a model, unless its run is finished, and returns its folder. A run that was stopped continues from its checkpoint."""
-    case = Case(entry.case, of.overrides)
+    overrides, name = of.overrides(seed), of.name if of.seeds == 1 else f"{of.name}-{seed}"
+    case = Case(entry.case, overrides)
     if case.refused[model]:
         raise StudyError(WRONG_CASE, "\n".join(case.refused[model]))
-    output = Path(options.output) / f"{entry.name}-{of.name}-{model}-{case.hash[:DIGITS]}"
+    output = Path(options.output) / f"{entry.name}-{name}-{model}-{case.hash[:DIGITS]}"
     if options.force or not finished(output, model, case.text):
         again = ["--force"] if options.force else ["--resume"] if has_checkpoint(output) else []
-        run(model, entry.case, *words_of(of.overrides), "-o", output, *again, *flags(vars(options), "quiet"), "--no-picture")
+        run(model, entry.case, *words_of(overrides), "-o", output, *again, *flags(vars(options), "quiet"), "--no-picture")
     return output
 
 
@@ -57,38 +59,40 @@ def judged(measured, give):
 
 
 def of_run(options, entry, of, model):
-    """Rows of one run, and the commit of the program that made it."""
+    """Rows of one run, or of its seeds together, and the commits of the program that made them."""
     try:
-        output = made(options, entry, of, model)
+        outputs = [made(options, entry, of, model, seed) for seed in range(1, min(of.seeds, options.seeds or of.seeds) + 1)]
     except StudyError as error:
         if error.code != NUMBERS:
             raise
         return [row_of(entry, of, model, compare, (measured_number(entry, of, compare), None, UNDECIDED, None, "the run failed"), None)
-                for compare in entry.compares], None
-    record = read_record(output / "run.json")
-    return [row_of(entry, of, model, compare, judged(measured_number(entry, of, compare), lambda: run_number(entry, compare, output)),
-                   record["cpu_s"]) for compare in entry.compares], record["git_commit"]
+                for compare in entry.compared(of)], set()
+    records = [read_record(output / "run.json") for output in outputs]
+    cpu = math.fsum(record["cpu_s"] for record in records)
+    return [row_of(entry, of, model, compare, judged(measured_number(entry, of, compare), lambda: of_seeds(entry, compare, outputs)), cpu)
+            for compare in entry.compared(of)], {record["git_commit"] for record in records}
 
 
 def of_balance(entry, of):
     """Rows that `polybed inversion` answers."""
     return [row_of(entry, of, NO_RUN, compare,
                    judged(measured_number(entry, of, compare), lambda: inversion_interval(inversion_of(entry, of))), None)
-            for compare in entry.compares]
+            for compare in entry.compared(of)]
 
 
 def block_of(options, entry, model, commit):
     """All that a model gives for an entry, as it is recorded."""
     rows, commits = [], set()
     for of in entry.runs:
-        if model not in of.models:
+        if model not in of.models or options.run and of.name not in options.run:
             continue
-        found, made_by = (of_balance(entry, of), commit) if model == NO_RUN else of_run(options, entry, of, model)
+        found, made_by = (of_balance(entry, of), set()) if model == NO_RUN else of_run(options, entry, of, model)
         rows += found
-        commits.add(made_by or commit)
+        commits |= made_by or {commit}
     seconds = {row["run"]: row["cpu_s"] for row in rows}
+    words = [f"--run={name}" for name in options.run] + ([f"--seeds={options.seeds}"] if options.seeds else [])
     return {"entry": entry.name, "model": model, "date": datetime.date.today().isoformat(), "git_commit": ", ".join(sorted(commits)),
-            "command": shlex.join(["polybed", "validate", entry.name, "--model", model, "--record"]),
+            "command": shlex.join(["polybed", "validate", entry.name, "--model", model, *words, "--record"]), "runs": options.run,
             "cpu_s": math.fsum(second or 0.0 for second in seconds.values()), "rows": rows}
 
 
@@ -117,13 +121,14 @@ def duration(seconds):
 
 def listed():
     """What held when results were last recorded, a line for each entry and model."""
-    recorded = {(block["entry"], block["model"]): block for block in report.read_recorded(folder())}
+    recorded = report.read_recorded(folder())
     rows = []
     for entry in map(entry_named, names()):
         for model, seconds in entry.seconds.items() or [("-", None)]:
-            block = recorded.get((entry.name, model))
-            held = f"{report.counted(block['rows'])} ({block['date']}, {block['git_commit'][:9]})" if block else "not run"
-            rows.append({"entry": entry.name, "model": model, "seconds": seconds, "recorded": block,
+            blocks = [block for block in recorded if (block["entry"], block["model"]) == (entry.name, model)]
+            last = blocks[-1] | {"rows": [row for block in blocks for row in block["rows"]]} if blocks else None
+            held = f"{report.counted(last['rows'])} ({last['date']}, {last['git_commit'][:9]})" if last else "not run"
+            rows.append({"entry": entry.name, "model": model, "seconds": seconds, "recorded": last,
                          "held": f"no measurement: {entry.missing}" if entry.missing else held, "title": entry.title})
     return rows
 
@@ -151,6 +156,11 @@ def document():
 def validate(options):
     target = document() if options.record else None  # refused before hours of runs
     pairs = work_of(options)
+    known = {of.name for entry, _ in pairs for of in entry.runs}
+    if unknown := set(options.run) - known:
+        raise StudyError(WRONG_CASE, f"there is no run {min(unknown)!r}; there are {', '.join(sorted(known))}")
+    if options.seeds is not None and options.seeds < 1:
+        raise StudyError(WRONG_CASE, "--seeds is 1 or more")
     if not pairs:
         raise StudyError(WRONG_CASE, "no entry is left to run: polybed validate --list shows all")
     commit = call("--version").split("(")[1].split(")")[0]
@@ -174,6 +184,8 @@ def parsed(arguments):
     parser.add_argument("names", nargs="*", metavar="NAME", help="an entry: a folder of cases/validation; default all that are quick")
     parser.add_argument("--list", action="store_true", help="what held when results were last recorded, and what each entry takes")
     parser.add_argument("--model", choices=MODELS, help="only this model; balance: the force balance, without a run")
+    parser.add_argument("--run", action="append", default=[], metavar="NAME", help="only this run of an entry; several: once each")
+    parser.add_argument("--seeds", type=int, metavar="N", help="of runs that are repeated with drawn inputs: the first N; default all")
     parser.add_argument("--at-most", type=float, default=AT_MOST, metavar="SECONDS",
                         help="CPU seconds of an entry that is not named; default %(default)g")
     parser.add_argument("--record", action="store_true", help="keep the results: recorded.json and docs/record/validation.md")

@@ -9,6 +9,8 @@ import io
 import tomllib
 from dataclasses import dataclass, field
 from pathlib import Path
+from random import Random
+from statistics import NormalDist
 
 from polybed.ending import FILE, WRONG_CASE, StudyError
 from polybed.files import FormatError, contents_of, finite, read_text
@@ -18,18 +20,30 @@ FILE_NAME = "validation.toml"
 NO_RUN = "balance"  # the model of an entry that `polybed inversion` answers without a run
 MODELS = ("tfm", "dem", NO_RUN)
 WAYS = ("mean", "deviation", "first_time", "meets_weight", "inversion")  # numbers.py
-KEYS = {"": {"title", "source", "case", "measured", "script", "missing", "note", "seconds", "run", "compare"},
-        "run": {"name", "models", "set", "where"},
-        "compare": {"quantity", "unit", "how", "column", "series", "reaches", "plus", "since", "where", "value", "measured_error"}}
+KEYS = {"": {"title", "source", "case", "measured", "script", "missing", "note", "seconds", "run", "compare", "set", "draw"},
+        "run": {"name", "models", "set", "where", "seeds", "draw"},
+        "compare": {"quantity", "unit", "how", "column", "series", "reaches", "plus", "since", "where", "value", "measured_error", "runs"}}
 
 
 @dataclass
 class Run:
-    """One run of an entry by each of its models."""
+    """One run of an entry by each of its models, or several that differ in seed and drawn inputs."""
     name: str
     models: tuple
-    overrides: list
+    set: list
     where: dict  # selects rows of the measured numbers
+    seeds: int = 1
+    draw: dict = field(default_factory=dict)  # mean and standard deviation of inputs, by the names that `set` gives them
+
+    def overrides(self, seed=1):
+        """`set`, with the seed for {seed} and, for the names of drawn inputs, normal deviates that depend on nothing but the seed."""
+        drawn = {"seed": str(seed)}
+        for number, (name, (mean, deviation)) in enumerate(sorted(self.draw.items())):
+            drawn[name] = f"{NormalDist(mean, deviation).inv_cdf(Random(1000 * seed + number).random()):.6g}"
+        texts = list(self.set)
+        for name, value in drawn.items():
+            texts = [text.replace(f"{{{name}}}", value) for text in texts]
+        return texts
 
 
 @dataclass
@@ -46,6 +60,10 @@ class Entry:
     note: str = ""
     runs: list = field(default_factory=list)
     compares: list = field(default_factory=list)
+
+    def compared(self, run):
+        """What is compared of a run: all, but for what names other runs."""
+        return [compare for compare in self.compares if run.name in compare.get("runs", [run.name])]
 
 
 def folder():
@@ -70,7 +88,8 @@ def runs_of(found, models, path):
     runs = []
     for table in found.get("run", [{}] if models else []):
         check_keys(table, "run", path)
-        runs.append(Run(table.get("name", "run"), tuple(table.get("models", models)), table.get("set", []), table.get("where", {})))
+        runs.append(Run(table.get("name", "run"), tuple(table.get("models", models)), found.get("set", []) + table.get("set", []),
+                        table.get("where", {}), table.get("seeds", 1), found.get("draw", {}) | table.get("draw", {})))
     return runs
 
 

@@ -24,7 +24,7 @@ INSIDE, OUTSIDE, UNDECIDED = "inside", "outside", "undecided"
 class Number(NamedTuple):
     value: float
     error: float | None = None  # half-width of the 95 % interval
-    repeats: int = 1  # of the experiment
+    repeats: int = 1  # of the experiment, or of a model's runs
 
 
 class Undecided(PlainError):
@@ -67,7 +67,7 @@ def measured_number(entry, run, compare):
 
 
 def inversion_of(entry, run):
-    words = [word for override in run.overrides for word in ("--set", override)]
+    words = [word for override in run.overrides() for word in ("--set", override)]
     return json.loads(call("inversion", entry.case, *words, "--json"))
 
 
@@ -87,13 +87,12 @@ def column_of(record, history, name):
     return 1 - bed["solids_fraction"] * bed["static_height"] / history["bed_height_m"]
 
 
-def first_time(history, compare):
-    """Time at which a column, plus a constant, first reaches another one; counted from `since`."""
-    time, above = history["time_s"], history[compare["column"]] + compare.get("plus", 0) >= history[compare["reaches"]]
-    reached = np.nonzero(above & (time > compare["since"]))[0]
+def first_time(time, above, since):
+    """Time at which something is first reached, counted from `since`."""
+    reached = np.nonzero(above & (time > since))[0]
     if not len(reached):
-        raise Undecided(f"not reached within {time[-1] - compare['since']:.3g} s")
-    return Number(float(time[reached[0]] - compare["since"]), float(time[reached[0]] - time[reached[0] - 1]))
+        raise Undecided(f"not reached within {time[-1] - since:.3g} s")
+    return Number(float(time[reached[0]] - since), float(time[reached[0]] - time[reached[0] - 1]))
 
 
 def meets_weight(record, history):
@@ -115,8 +114,12 @@ def run_number(entry, compare, directory):
     history = history_of(run)
     if how == "meets_weight":
         return meets_weight(run.record, history)
+    if how == "first_time" and "series" in compare:
+        time, above = script_of(entry).simulated(run, compare["since"])[compare["series"]]
+        return first_time(time, above >= 0, compare["since"])
     if how == "first_time":
-        return first_time(history, compare)
+        return first_time(history["time_s"], history[compare["column"]] + compare.get("plus", 0) >= history[compare["reaches"]],
+                          compare["since"])
     window = means_of(directory).window
     if "series" in compare:
         found = of_series(how, script_of(entry).simulated(run, window.begin)[compare["series"]][1])
@@ -127,12 +130,31 @@ def run_number(entry, compare, directory):
     return found
 
 
+def of_seeds(entry, compare, directories):
+    """What runs give that differ in seed and drawn inputs: their mean, with the interval in which one more would lie: an input that
+    is wrong in the experiment is so in each of its repeats, and no mean takes it away. Raises as run_number."""
+    if len(directories) == 1:
+        return run_number(entry, compare, directories[0])
+    found, reasons = [], []
+    for directory in directories:
+        try:
+            found.append(run_number(entry, compare, directory).value)
+        except Undecided as error:
+            reasons.append(str(error))
+    if reasons:
+        raise Undecided(f"{len(reasons)} of {len(directories)} runs give no number: {reasons[0]}")
+    if len(found) < 4:
+        raise Undecided(f"an interval needs four runs, and there are {len(found)}", Number(float(np.mean(found))))
+    mean = of_repeats(found)
+    return mean._replace(error=mean.error * math.sqrt(len(found) + 1))
+
+
 def joint_interval(measured, model):
-    """Half-width in which the difference of both lies with 95 %. One run is one more repeat of an experiment that has been repeated.
-    None if one side has no interval."""
+    """Half-width in which the difference of both lies with 95 %. A single run is one more repeat of an experiment that has been
+    repeated. None if one side has no interval."""
     if measured.error is None or model.error is None:
         return None
-    one_more = measured.error * math.sqrt(measured.repeats) if measured.repeats > 1 else 0.0
+    one_more = measured.error * math.sqrt(measured.repeats) if measured.repeats > 1 and model.repeats == 1 else 0.0
     return math.hypot(measured.error, model.error, one_more)
 
 

@@ -29,8 +29,9 @@ def cells(row):
     """A row of results as texts, in the order of HEAD."""
     joint, unit = row["joint"], f", {row['unit']}" if row["unit"] != "1" else ""
     told = f"{row['verdict']}: {row['reason']}" if row["reason"] else row["verdict"]
+    runs = f" ({row['runs']} runs)" if row.get("runs", 1) > 1 else ""
     seconds = "-" if row["cpu_s"] is None else f"{row['cpu_s']:.2g}"
-    return [row["entry"], row["run"], row["model"], row["quantity"] + unit, shown(row["measured"]), shown(row["result"]),
+    return [row["entry"], row["run"], row["model"], row["quantity"] + unit, shown(row["measured"]), shown(row["result"]) + runs,
             "-" if joint is None else f"± {joint:.2g}", told, seconds]
 
 
@@ -69,8 +70,11 @@ def read_recorded(folder):
 
 
 def merged(blocks, new):
-    """Recorded blocks, those of the same entry and model replaced, in the order of their names."""
-    found = {(block["entry"], block["model"]): block for block in (*blocks, *new)}
+    """Recorded blocks, those of the same entry, model and runs replaced, and by one of all runs those of some; in the order of their
+    names."""
+    whole = {(block["entry"], block["model"]) for block in new if not block.get("runs")}
+    kept = [block for block in blocks if (block["entry"], block["model"]) not in whole]
+    found = {(block["entry"], block["model"], *block.get("runs", [])): block for block in (*kept, *new)}
     return [found[key] for key in sorted(found)]
 
 

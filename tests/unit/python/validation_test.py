@@ -51,14 +51,14 @@ class Entries(unittest.TestCase):
                 self.assertEqual(bool(entry.compares), not entry.missing)
                 self.assertEqual(bool(entry.seconds), not entry.missing)
                 for run in entry.runs:
-                    for compare in entry.compares:
+                    for compare in entry.compared(run):
                         found = numbers.measured_number(entry, run, compare)
                         self.assertTrue(math.isfinite(found.value) and found.error > 0, compare)
 
     def test_each_run_is_one_that_its_models_can_make(self):
         for entry in map(entries.entry_named, entries.names()):
-            for run in entry.runs[:1]:
-                refused = Case(entry.case, run.overrides).refused
+            for run in {run.seeds: run for run in entry.runs}.values():
+                refused = Case(entry.case, run.overrides(2)).refused
                 self.assertFalse([refused[model] for model in run.models if refused.get(model)], entry.name)
 
     def test_an_unknown_entry_and_an_unknown_key_are_named(self):
@@ -83,8 +83,8 @@ class Entries(unittest.TestCase):
 
         def mean(name, of):
             return np.mean([float(row["value"]) for row in entries.chosen_rows(folder / "properties.csv", {"property": name, "of": of})])
-        large, glass = (float(species["diameter"].split()[0]) for species in case["species"])
-        self.assertAlmostEqual(large, mean("diameter", "large intruder") / 1e3, delta=5e-4)
+        intruder, glass = (float(species["diameter"].split()[0]) for species in case["species"])
+        self.assertAlmostEqual(intruder, mean("diameter", "large intruder") / 1e3, delta=5e-4)
         self.assertAlmostEqual(glass, mean("diameter", "glass") / 1e3, delta=5e-4)
         self.assertAlmostEqual(case["dem"]["restitution"], mean("restitution", "glass-glass"), delta=5e-4)
         self.assertAlmostEqual(case["contact_pair"][0]["restitution"], mean("restitution", "glass-intruder"), delta=6e-4)
@@ -93,13 +93,39 @@ class Entries(unittest.TestCase):
 class Numbers(unittest.TestCase):
     def test_repeats_have_students_interval_and_one_run_is_one_more(self):
         entry = entries.entry_named("vssuq")
-        measured = numbers.measured_number(entry, entry.runs[0], entry.compares[0])
+        measured = numbers.measured_number(entry, entry.runs[0], entry.compares[0])  # of one large sphere at 1.83 m/s
         self.assertAlmostEqual(measured.value, 7.50, delta=0.005)  # the source: 7.50 +- 0.88
         self.assertAlmostEqual(measured.error, 0.88, delta=0.005)
         joint = numbers.joint_interval(measured, Number(0, 0))
         self.assertAlmostEqual(joint, measured.error * math.sqrt(7 + 1), delta=1e-9)
         with self.assertRaises(FormatError):
             of_repeats([1.0, 2.0])
+
+    def test_seeds_draw_inputs_and_their_mean_has_the_interval_of_one_more(self):
+        run = entries.Run("a", ("dem",), ["bed.seed={seed}", 'inlet = {u = "{u} m/s"}'], {}, 400, {"u": (2, 0.1)})
+        self.assertEqual(run.overrides(7), run.overrides(7))
+        drawn = np.array([float(run.overrides(seed)[1].split('"')[1].split()[0]) for seed in range(1, 401)])
+        self.assertAlmostEqual(drawn.mean(), 2, delta=0.02)  # four standard errors of 0.1/20
+        self.assertAlmostEqual(drawn.std(), 0.1, delta=0.015)  # and of 0.1/sqrt(800)
+        with mock.patch.object(numbers, "run_number", lambda entry, compare, value: Number(value)):
+            found = numbers.of_seeds(None, {}, [1.0, 2.0, 3.0, 4.0])  # s = 1.2910, Student's 3.1824, sqrt(1 + 1/4)
+            self.assertEqual((found.value, found.repeats), (2.5, 4))
+            self.assertAlmostEqual(found.error, 4.5934, delta=1e-3)
+            with self.assertRaisesRegex(Undecided, "needs four runs, and there are 2") as raised:
+                numbers.of_seeds(None, {}, [1.0, 2.0])
+        self.assertEqual(raised.exception.number.value, 1.5)
+        measured = Number(2.0, 1.0, 9)  # one run is one more repeat, four with an interval of their own are not
+        self.assertEqual([numbers.joint_interval(measured, Number(2.5, 0, runs)) for runs in (1, 4)], [math.sqrt(10), 1.0])
+
+    def test_spheres_arrive_in_the_order_in_which_their_tops_pass_the_surface(self):
+        of = np.array([False, True, True])
+        tops = [(0.01, 0.02), (0.06, 0.03), (0.02, 0.055), (0.02, 0.03)]  # the second emerges last, and both sink again
+        steps = [SimpleNamespace(position=np.array([(0, 0, 0), (0, a - 0.005, 0), (0, b - 0.005, 0)]), radius=np.full(3, 0.005), of=lambda _: of)
+                 for a, b in tops]
+        stored = type("Stored", (list,), {"time": np.arange(4.0)})(steps)
+        run = SimpleNamespace(particles=stored, history={"time_s": np.array([0.0, 3.0]), "bed_height_m": np.full(2, 0.05)})
+        found = entries.script_of(entries.entry_named("vssuq")).simulated(run, 1.0)
+        self.assertEqual([numbers.first_time(time, above >= 0, 0.0).value for time, above in (found["first"], found["second"])], [1.0, 2.0])
 
     def test_verdicts(self):
         self.assertEqual(verdict(Number(1, 0.3), Number(1.5, 0.4)), ("inside", 0.5, ""))
@@ -176,6 +202,9 @@ class Records(unittest.TestCase):
             report.write_recorded(Path(folder), document, [self.block(verdict="outside"), self.block() | {"entry": "b"}])
             blocks = report.read_recorded(Path(folder))
             self.assertEqual([(block["entry"], block["rows"][0]["verdict"]) for block in blocks], [("a", "outside"), ("b", "inside")])
+            some = [self.block() | {"entry": "b", "runs": [name]} for name in ("one", "two", "one")]
+            self.assertEqual([block.get("runs") for block in report.merged(blocks[:1], some)], [None, ["one"], ["two"]])
+            self.assertEqual(report.merged(some, blocks), blocks)
             text = document.read_text()
         self.assertTrue(text.startswith("before\n") and text.endswith("\nafter\n"))
         self.assertNotIn("old", text)
