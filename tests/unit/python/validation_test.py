@@ -83,9 +83,12 @@ class Entries(unittest.TestCase):
 
         def mean(name, of):
             return np.mean([float(row["value"]) for row in entries.chosen_rows(folder / "properties.csv", {"property": name, "of": of})])
-        intruder, glass = (float(species["diameter"].split()[0]) for species in case["species"])
-        self.assertAlmostEqual(intruder, mean("diameter", "large intruder") / 1e3, delta=5e-4)
-        self.assertAlmostEqual(glass, mean("diameter", "glass") / 1e3, delta=5e-4)
+        intruder, glass = case["species"]
+        self.assertAlmostEqual(float(intruder["diameter"].split()[0]), mean("diameter", "large intruder") / 1e3, delta=5e-4)
+        # by number a lognormal distribution has the median m exp(-3 s^2), m by volume, and the mean m exp(-2.5 s^2)
+        self.assertAlmostEqual(float(glass["median"].split()[0]) * math.exp(-2.5 * glass["deviation"] ** 2), mean("diameter", "glass") / 1e3, delta=5e-4)
+        each = [float(row["value"]) for row in entries.chosen_rows(folder / "properties.csv", {"property": "diameter", "of": "glass"})]
+        self.assertAlmostEqual(math.sqrt(math.expm1(glass["deviation"] ** 2)), np.std(each, ddof=1) / np.mean(each), delta=1e-4)
         self.assertAlmostEqual(case["dem"]["restitution"], mean("restitution", "glass-glass"), delta=5e-4)
         self.assertAlmostEqual(case["contact_pair"][0]["restitution"], mean("restitution", "glass-intruder"), delta=6e-4)
 
