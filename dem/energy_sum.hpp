@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 
 #include "core/numerics/ranks.hpp"
 
@@ -24,6 +25,17 @@ class EnergySum {
     whole_ += whole;
     part_ += std::int64_t((units - double(whole)) * parts);
     carry();
+  }
+  /// The same of each of many, fewer than 2^33, times `per_energy`; none waits for the one before.
+  void add(std::span<const double> energies, double per_energy) {
+    std::int64_t whole = 0, part = 0;
+    for (const double energy : energies) {
+      const double units = energy * per_energy;
+      const auto cut = std::int64_t(units);
+      whole += cut;
+      part += std::int64_t((units - double(cut)) * parts);
+    }
+    add(EnergySum(whole, part));
   }
   void add(const EnergySum& other) {
     whole_ += other.whole_;

@@ -31,6 +31,7 @@ struct Free {
     return {to_four(particles.load[i].force) * linear + gravity * time};
   }
   void account(const Particles&, std::size_t, const Kick&, double, WorkShare) const {}
+  void sum_work() const {}
 };
 
 /// A fluid whose work nobody asks for.
@@ -43,6 +44,7 @@ struct Uncounted {
   void account(const Particles& particles, std::size_t i, const FluidMotion::Kick& kick, double, WorkShare) {
     fluid.account_impulse(particles, i, kick);
   }
+  void sum_work() const {}
 };
 
 void turn(Particles& particles, std::size_t i, double unit, double time) {
@@ -87,6 +89,7 @@ void Verlet::begin_with(Verlet& verlet, Particles& particles, Push& push) {
       particles.load[i] = {};
     }
   }
+  push.sum_work();
   std::fill(particles.load.begin() + std::ptrdiff_t(particles.owned), particles.load.end(), Load{});
   if (verlet.ledger_ != nullptr) verlet.ledger_->begin_step(particles.load.size());
 }
@@ -115,6 +118,7 @@ void Verlet::end_with(Verlet& verlet, Particles& particles, Push& push) {
     verlet.kick(particles, i, push, WorkShare::after_drift(synchronised));
     if (synchronised && verlet.ledger_ != nullptr) verlet.ledger_->correct(verlet.work_missed(particles, i, foreseen));
   }
+  push.sum_work();
 }
 
 template <class Act>

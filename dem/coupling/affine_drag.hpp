@@ -49,6 +49,7 @@ class AffineDrag final : public KeptPart {
       work += (m.v[k] + 0.5 * kick.dv[k]) * kick.dv[k] - (m.v[k] + share.load * kick.dv[k]) * kick.free[k];
     work_.add(work / m.inverse_mass * energy_.per_unit);
   }
+  void sum_work() const {}
 
   [[nodiscard]] const EnergySum& work() const { return work_; }
   void write(core::Checkpoint& checkpoint, const Particles&, const core::Ranks* ranks) const override {

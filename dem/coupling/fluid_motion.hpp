@@ -74,7 +74,7 @@ class FluidMotion {
   /// \param counts_work  whether the fluid's work is summed
   FluidMotion(const Materials& materials, double fluid_density, Vector gravity, FixedPoint force, FixedPoint energy,
               bool counts_work = true)
-      : gravity_(gravity), force_(force), energy_(energy), counts_work_(counts_work) {
+      : gravity_{gravity[0], gravity[1], gravity[2], 0}, force_(force), energy_(energy), counts_work_(counts_work) {
     for (const Species& species : materials.species()) {
       mass_.push_back(species.mass);
       const double share = 1 - fluid_density / species.density;
@@ -105,6 +105,7 @@ class FluidMotion {
   /// when these, h or the particles have changed, and before the first kick. \param h  s
   void relax(const Particles& particles, double h) {
     relaxation_.resize(load.size());
+    if (counts_work_) work_of_kick_.resize(load.size());
     for (std::size_t i = 0; i < load.size(); ++i) relax(particles, i, h);
   }
   /// The same for one particle. \pre relax() has been called for all
@@ -122,16 +123,16 @@ class FluidMotion {
   }
   void account(const Particles& particles, std::size_t i, const Kick& kick, double h, WorkShare share) {
     account_impulse(particles, i, kick);
-    const Motion& m = particles.motion[i];
     const double mass = mass_[std::size_t(particles.species[i])], unit = force_.unit * h;
-    double work = 0;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const double v = m.v[k], dv = kick.dv[k], contacts = double(particles.load[i].force[k]) * unit;
-      work += (v + 0.5 * dv) * mass * dv - (v + share.weight * dv) * mass * (gravity_[k] * h) -
-              (v + share.load * dv) * contacts;
-    }
-    work_.add(work * energy_.per_unit);
+    Four gravity;
+    get_four(gravity_.data(), gravity);
+    const Four v = four_at(particles.motion[i].v), &dv = kick.dv, contacts = to_four(particles.load[i].force) * unit;
+    const Four work =
+        (v + 0.5 * dv) * mass * dv - (v + share.weight * dv) * mass * (gravity * h) - (v + share.load * dv) * contacts;
+    work_of_kick_[i] = work[0] + work[1] + work[2];
   }
+  /// Adds what the kicks of all particles have done to the work: after them, so that no kick waits for the sum.
+  void sum_work() { work_.add(work_of_kick_, energy_.per_unit); }
   /// A change of velocity that the fluid alone has made.
   void account_coupling(const Motion& m, const Vector& dv) {
     if (!counts_work_) return;
@@ -160,12 +161,13 @@ class FluidMotion {
     double per_inertia, share, x, mean;
   };
 
-  Vector gravity_;
+  std::array<double, 4> gravity_;                   ///< m/s2; three numbers count
   std::vector<double> mass_;                        ///< of each species, kg
   std::vector<std::array<double, 4>> net_gravity_;  ///< g (1 - rho_f/rho_p) of each species
   FixedPoint force_, energy_;
   bool counts_work_;
   std::vector<Relaxation> relaxation_;
+  std::vector<double> work_of_kick_;  ///< of the fluid on each particle, J; empty where it is not counted
   EnergySum work_;
 };
 

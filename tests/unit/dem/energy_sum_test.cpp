@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <vector>
 
 #include "dem/measures.hpp"
 
@@ -24,15 +25,19 @@ TEST(EnergySum, KeepsWhatIsBelowItsUnit) {
 }
 
 TEST(EnergySum, DoesNotDependOnTheOrder) {
-  EnergySum forward, backward, first, second;
+  EnergySum forward, backward, first, second, at_once;
   const auto number = [](int n) { return std::sin(n) * std::exp(0.03 * (n % 1000)); };  // 1e-3 to 1e13
+  std::vector<double> all;
   for (int n = 0; n < 3000; ++n) {
+    all.push_back(2 * number(n));
     forward.add(number(n));
     backward.add(number(2999 - n));
     (n % 3 == 0 ? first : second).add(number(n));
   }
   first.add(second);
+  at_once.add(all, 0.5);
   EXPECT_EQ(forward, backward);
+  EXPECT_EQ(forward, at_once);
   EXPECT_EQ(forward, first) << "shared by ranks";
   EXPECT_EQ(forward, EnergySum(forward.whole(), forward.part())) << "through a checkpoint";
   EXPECT_EQ(EnergySum(forward.whole() - 5, forward.part() + (std::int64_t(5) << 30)), forward) << "summed by ranks";

@@ -34,6 +34,7 @@ struct One {
     motion.relax(cloud.particles, h);
     const FluidMotion::Kick kick = motion.kick(cloud.particles, 0, h);
     motion.account(cloud.particles, 0, kick, h, share);
+    motion.sum_work();
     for (std::size_t k = 0; k < 3; ++k) state().v[k] += kick.dv[k];
     return kick;
   }
