@@ -63,7 +63,7 @@ def of_run(options, entry, of, model):
     try:
         outputs = [made(options, entry, of, model, seed) for seed in range(1, min(of.seeds, options.seeds or of.seeds) + 1)]
     except StudyError as error:
-        if error.code != NUMBERS:
+        if error.code != NUMBERS or str(error):  # what has a text was killed, and has said nothing itself
             raise
         return [row_of(entry, of, model, compare, (measured_number(entry, of, compare), None, UNDECIDED, None, "the run failed"), None)
                 for compare in entry.compared(of)], set()
