@@ -81,9 +81,60 @@ void Box::add_cone(const InPlane& from, const InPlane& to) {
   walls.push_back({0, 0, 0, joined(plate)});
 }
 
+std::optional<Vector> Opening::from_rim(const Vector& centre) const {
+  const auto toward = [&](double to, double away, double width) {
+    return away == 0 ? -width : (1 - width / away) * to;
+  };
+  Vector from{};
+  from[std::size_t(axis)] = centre[std::size_t(axis)] - place;
+  if (round) {
+    const double dx = centre[0] - middle[0], dz = centre[2] - middle[2], away = std::sqrt(dx * dx + dz * dz);
+    if (away >= half[0]) return {};
+    from[0] = toward(dx, away, half[0]);
+    from[2] = away == 0 ? 0 : toward(dz, away, half[0]);
+    return from;
+  }
+  double least = std::numeric_limits<double>::infinity();
+  std::size_t nearest = 3;
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (k == std::size_t(axis)) continue;
+    const double gap = half[k] - std::abs(centre[k] - middle[k]);
+    if (gap <= 0) return {};
+    if (gap < least) {
+      least = gap;
+      nearest = k;
+    }
+  }
+  if (nearest == 3)
+    from[std::size_t(axis)] = least;
+  else
+    from[nearest] =
+        toward(centre[nearest] - middle[nearest], std::abs(centre[nearest] - middle[nearest]), half[nearest]);
+  return from;
+}
+
+std::optional<Vector> Box::from_opened(int axis, int side, const Vector& centre) const {
+  const Opening* face = nullptr;
+  for (const Opening& opening : openings) {
+    if (opening.axis != axis || opening.side != side) continue;
+    if (const auto from = opening.from_rim(centre)) return from;
+    face = &opening;
+  }
+  if (face == nullptr) return {};
+  Vector straight{};
+  straight[std::size_t(axis)] = centre[std::size_t(axis)] - face->place;
+  return straight;
+}
+
+bool Box::in_line(const Opening& face, const Vector& centre) const {
+  return std::any_of(openings.begin(), openings.end(),
+                     [&](const Opening& opening) { return opening.is_beside(face) && opening.from_rim(centre); });
+}
+
 /// It reaches beyond the corners, so that only the rim of the opening is an edge that particles meet.
 void Box::make_bottom_a_plate() {
-  const double rim = opening ? opening->half : 0, beyond = size[0] + size[2];
+  const auto hole = std::find_if(openings.begin(), openings.end(), [](const Opening& o) { return o.is_bottom(); });
+  const double rim = hole != openings.end() ? hole->half[0] : 0, beyond = size[0] + size[2];
   const int plate = joined(about_axis({rim, 0}, {beyond, 0}));
   for (Wall& wall : walls)
     if (wall.plate < 0 && wall.is_bottom()) wall.plate = plate;

@@ -18,22 +18,23 @@
 
 namespace polybed::dem {
 
-/// An opening in the bottom of the box. The bottom is a plate at y = 0 without thickness, with a sharp rim: what has
-/// passed it meets it from below.
+/// An opening in a face of the box, or the whole of an open top. The face is a plate without thickness, with a sharp
+/// rim: what has passed it meets it from outside.
 struct Opening {
-  double x = 0, z = 0;  ///< of its middle, m
-  double half = 0;      ///< half its width, m
-  bool round = false;   ///< a hole; else a slot along z
+  int axis = 1, side = 0;   ///< of the face, as of a Wall
+  double place = 0;         ///< of the face, m
+  Vector middle{}, half{};  ///< and half its widths, m; along the axis without meaning; no rim where infinite
+  bool round = false;       ///< a hole in the bottom of the radius half[0]; else a rectangle
 
-  /// To a centre from the point of the plate that is nearest to it, m: straight above or below the plate, from the rim
-  /// within the opening. A sphere that fits through touches one side of the rim at a time.
-  [[nodiscard]] Vector from_plate(const Vector& centre) const {
-    const double dx = centre[0] - x, dz = round ? centre[2] - z : 0, away = std::sqrt(dx * dx + dz * dz);
-    if (away >= half) return {0, centre[1], 0};
-    if (away == 0) return {-half, centre[1], 0};
-    const double beyond = 1 - half / away;
-    return {beyond * dx, centre[1], beyond * dz};
-  }
+  [[nodiscard]] bool is_bottom() const { return axis == 1 && side == 0; }
+  [[nodiscard]] bool is_top() const { return axis == 1 && side == 1; }
+  [[nodiscard]] bool is_beside(const Opening& other) const { return axis == other.axis && side == other.side; }
+  /// A coordinate along the outward normal, m: of a centre, and of the face.
+  [[nodiscard]] double outward(double along) const { return side == 0 ? -along : along; }
+  [[nodiscard]] double outward(const Vector& centre) const { return outward(centre[std::size_t(axis)]); }
+  /// To a centre in line with the opening from the point of the rim that is nearest to it, m, infinite without one;
+  /// nothing: it is not in line.
+  [[nodiscard]] std::optional<Vector> from_rim(const Vector& centre) const;
 };
 
 /// A point in the plane of a plate's profile, m: x and y, or distance from the axis and y.
@@ -113,13 +114,19 @@ struct Box {
   std::vector<double> curvatures;  ///< of contacts with round plates, 1/m: above 0 from inside, below 0 from outside
   bool round = false;              ///< its cross-section is the circle within its width and depth
   TaperedSide side;                ///< of a round box whose diameter changes
-  std::optional<Opening> opening;  ///< in the bottom; absent: it is whole
-  bool open_top = false;           ///< particles leave through the top
+  std::vector<Opening> openings;   ///< through which particles leave; absent: all faces are whole
   double shear_rate = 0;           ///< of Lees and Edwards: d v_x/d y, 1/s; then y is periodic
   double strain_before = 0;        ///< that it has undergone before time 0
 
-  /// Whether all its walls are whole faces.
-  [[nodiscard]] bool plain() const { return !opening && plates.empty(); }
+  /// Whether all its walls are whole faces: an open top has none.
+  [[nodiscard]] bool plain() const {
+    return plates.empty() && std::all_of(openings.begin(), openings.end(), [](const Opening& o) { return o.is_top(); });
+  }
+  /// To a centre from the point that is nearest to it of a face with openings, m: straight in or out, or from the rim;
+  /// nothing: the face is whole. A sphere that fits through an opening touches one part of its rim at a time.
+  [[nodiscard]] std::optional<Vector> from_opened(int axis, int side, const Vector& centre) const;
+  /// Whether a centre is in line with one of the openings that a face has.
+  [[nodiscard]] bool in_line(const Opening& face, const Vector& centre) const;
 
   /// A place brought back between the joined faces of a box at rest.
   [[nodiscard]] Vector wrapped(Vector x) const;

@@ -10,7 +10,6 @@ namespace polybed::dem {
 
 namespace {
 
-constexpr std::array<std::size_t, 2> across{0, 2};  ///< axes of the bins
 constexpr std::size_t numbers_of_sphere = 4;
 
 /// What every rank has, on all of them. Sums with zeros are exact, and the order of the ranks has no effect here.
@@ -32,16 +31,17 @@ std::vector<double> of_all_ranks(const core::Ranks* ranks, std::vector<double> o
 
 }  // namespace
 
-FeedStrip::FeedStrip(const Model& model, bool top) : box_(model.box()) {
-  const double widest = model.materials().greatest_diameter(), height = box_.size[1];
-  for (std::size_t n = 0; n < across.size(); ++n) bins_[n] = std::max(1, int(box_.size[across[n]] / widest));
+FeedStrip::FeedStrip(const Model& model, core::ColumnFace at) : box_(model.box()), across_(across(at)) {
+  const auto a = std::size_t(axis_of(at));
+  const double widest = model.materials().greatest_diameter(), far = box_.size[a];
+  for (std::size_t n = 0; n < across_.size(); ++n) bins_[n] = std::max(1, int(box_.size[across_[n]] / widest));
   inside_.resize(std::size_t(bins_[0]) * std::size_t(bins_[1]));
   const Particles& particles = model.particles();
   std::vector<double> own;
   for (std::size_t i = 0; i < particles.owned; ++i) {
     const auto& [x, radius] = particles.place[i];
-    // Those that enter lie within one of the largest diameters of the end, but for a hair.
-    const double away = top ? height - x[1] - radius : x[1] - radius;
+    // Those that enter lie within one of the largest diameters of the face, but for a hair.
+    const double away = side_of(at) == 1 ? far - x[a] - radius : x[a] - radius;
     if (away < 1.5 * widest) own.insert(own.end(), {x[0], x[1], x[2], radius});
   }
   const std::vector<double> all = of_all_ranks(model.ranks(), std::move(own));
@@ -51,7 +51,7 @@ FeedStrip::FeedStrip(const Model& model, bool top) : box_(model.box()) {
 
 /// Particles stray beyond walls by their overlaps, and beyond joined faces until the list is made.
 int FeedStrip::place_of(double x, std::size_t n) const {
-  const std::size_t axis = across[n];
+  const std::size_t axis = across_[n];
   const double share = x / box_.size[axis];
   const double within = box_.periodic[axis] ? share - std::floor(share) : share;
   return std::clamp(int(within * bins_[n]), 0, bins_[n] - 1);
@@ -60,7 +60,7 @@ int FeedStrip::place_of(double x, std::size_t n) const {
 std::size_t FeedStrip::bin(int i, int k) const { return std::size_t(i) * std::size_t(bins_[1]) + std::size_t(k); }
 
 void FeedStrip::add(const Place& sphere) {
-  inside_[bin(place_of(sphere.x[0], 0), place_of(sphere.x[2], 1))].push_back(sphere);
+  inside_[bin(place_of(sphere.x[across_[0]], 0), place_of(sphere.x[across_[1]], 1))].push_back(sphere);
 }
 
 bool FeedStrip::overlap(const Place& a, const Place& b) const {
@@ -80,11 +80,11 @@ bool FeedStrip::has_room_for(const Place& sphere) const {
     const InPlane away = plate.to(plate.in_plane(sphere.x));
     if (std::hypot(away[0], away[1]) < sphere.radius) return false;
   }
-  const int i = place_of(sphere.x[0], 0), k = place_of(sphere.x[2], 1);
+  const int i = place_of(sphere.x[across_[0]], 0), k = place_of(sphere.x[across_[1]], 1);
   // A bin that is its own neighbour is searched again, which changes nothing.
   const auto near = [this](int n, std::size_t axis) {
     const int bins = bins_[axis];
-    return box_.periodic[across[axis]] ? (n + bins) % bins : std::clamp(n, 0, bins - 1);
+    return box_.periodic[across_[axis]] ? (n + bins) % bins : std::clamp(n, 0, bins - 1);
   };
   for (int di = -1; di <= 1; ++di)
     for (int dk = -1; dk <= 1; ++dk)

@@ -1,9 +1,10 @@
-// The particles near an end of the box, of all ranks: what those that enter there must not overlap.
+// The particles near an end or a side of the box, of all ranks: what those that enter there must not overlap.
 #pragma once
 
 #include <array>
 #include <vector>
 
+#include "core/case/choices.hpp"
 #include "dem/box.hpp"
 #include "dem/particles.hpp"
 
@@ -11,11 +12,16 @@ namespace polybed::dem {
 
 class Model;
 
-/// Spheres in bins across the end, as wide as the largest of them. The same on every rank.
+/// Axes across a face of the column, in which a feed has places.
+[[nodiscard]] constexpr std::array<std::size_t, 2> across(core::ColumnFace at) {
+  return {axis_of(at) == 0 ? std::size_t(1) : 0, axis_of(at) == 2 ? std::size_t(1) : 2};
+}
+
+/// Spheres in bins across the face, as wide as the largest of them. The same on every rank.
 class FeedStrip {
  public:
-  /// Collective. \param top  the end at the top, or that at the bottom
-  FeedStrip(const Model& model, bool top);
+  /// Collective.
+  FeedStrip(const Model& model, core::ColumnFace at);
 
   /// Whether a sphere would overlap none of those in the strip, no image of one, no plate inside the box, and not the
   /// side of a round one.
@@ -28,7 +34,8 @@ class FeedStrip {
   [[nodiscard]] bool overlap(const Place& a, const Place& b) const;
 
   const Box& box_;
-  std::array<int, 2> bins_{};               ///< along x and z
+  std::array<std::size_t, 2> across_;       ///< axes of the bins
+  std::array<int, 2> bins_{};               ///< along them
   std::vector<std::vector<Place>> inside_;  ///< of each bin
 };
 

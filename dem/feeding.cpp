@@ -19,32 +19,37 @@ namespace {
 /// Random places drawn for a particle before it waits.
 constexpr int most_tries = 100;
 
-/// Random sequences of a feed, along x and along z. The start uses lower numbers.
+/// Random sequences of a feed, along both axes of its face. The start uses lower numbers.
 constexpr std::uint64_t first_sequence = 1000;
-std::uint64_t sequence(std::size_t feed, std::uint64_t axis) { return first_sequence + 2 * feed + axis; }
+std::uint64_t sequence(std::size_t feed, std::uint64_t n) { return first_sequence + 2 * feed + n; }
 
 /// Where the centres of a feed's particles may be. They enter a hair away from the wall.
 std::pair<Vector, Vector> centres(const core::Feed& feed, const core::Column& column, const Box& box, double radius) {
   constexpr double hair = 1 + 0x1p-20;
   Vector low{}, high = box.size;
-  for (const std::size_t k : {0, 2}) {
-    const std::size_t n = k / 2;
-    const bool whole = n >= feed.from.size();
-    if (whole && box.periodic[k]) continue;
+  const auto set = [&](std::size_t k, double from, double to) {
+    low[k] = from + radius;
+    high[k] = std::max(low[k], to - radius);
+  };
+  for (const std::size_t k : across(feed.at)) {
+    if (box.periodic[k]) continue;
     const double beside = box.side ? 0.5 * (box.size[k] - column.diameter_at(feed.at)) : 0;
-    low[k] = (whole ? beside : feed.from[n]) + radius;
-    high[k] = std::max(low[k], (whole ? box.size[k] - beside : feed.to[n]) - radius);
+    set(k, beside, box.size[k] - beside);
   }
-  low[1] = high[1] = feed.at == core::ColumnFace::top ? box.size[1] - hair * radius : hair * radius;
+  for (std::size_t n = 0; n < feed.from.size(); ++n)
+    set(std::size_t(axis_along(feed.at, column.dimensions, n)), feed.from[n], feed.to[n]);
+  const auto a = std::size_t(axis_of(feed.at));
+  low[a] = high[a] = side_of(feed.at) == 1 ? box.size[a] - hair * radius : hair * radius;
   return {low, high};
 }
 
 double area_of(const core::Feed& feed, const core::Column& column) {
-  if (feed.from.empty()) return column.cross_section(feed.at);
-  const auto width = [&](std::size_t n, std::size_t k) {
-    return n < feed.from.size() ? feed.to[n] - feed.from[n] : column.size[k];
-  };
-  return width(0, 0) * width(1, 2);
+  if (feed.from.empty() && !is_side(feed.at)) return column.cross_section(feed.at);
+  Vector width = column.size;
+  for (std::size_t n = 0; n < feed.from.size(); ++n)
+    width[std::size_t(axis_along(feed.at, column.dimensions, n))] = feed.to[n] - feed.from[n];
+  const auto [first, second] = across(feed.at);
+  return width[first] * width[second];
 }
 
 }  // namespace
@@ -57,8 +62,8 @@ Feeding::Feeding(const core::Scene& scene, const Materials& materials, const Box
     const double radius = found->radius;
     const auto [low, high] = centres(feed, scene.column, box, radius);
     // The list is made when the fastest particles have moved by half of the skin: no more often because of feeds.
-    feeds_.push_back({std::int32_t(found - materials.species().begin()), feed.at == core::ColumnFace::top,
-                      feed.velocity, 0.5 * skin / feed.velocity, fluid::Ramp(feed.superficial_velocity),
+    feeds_.push_back({std::int32_t(found - materials.species().begin()), feed.at, feed.velocity,
+                      0.5 * skin / feed.velocity, fluid::Ramp(feed.superficial_velocity),
                       area_of(feed, scene.column) / closures::sphere_volume(radius), low, high});
   }
 }
@@ -98,19 +103,22 @@ std::string Feeding::warning() const {
                           materials_.species()[j].name);
   if (text.empty()) return "";
   return "[[feed]]: " + text +
-         " have found no room where they enter: raise feed.velocity, feed them through a wider part of the end, or "
+         " have found no room where they enter: raise feed.velocity, feed them through a wider part of the end or "
+         "side, or "
          "feed less";
 }
 
 bool Feeding::find_place(std::size_t n, const FeedStrip& strip, Place& place) {
   Feed& feed = feeds_[n];
   place.radius = materials_.species()[std::size_t(feed.species)].radius;
-  place.x[1] = feed.low[1];
+  const auto a = std::size_t(axis_of(feed.at));
+  const std::array<std::size_t, 2> axes = across(feed.at);
+  place.x[a] = feed.low[a];
   for (int k = 0; k < most_tries; ++k) {
     const auto index = std::uint64_t(feed.tries++);
-    for (const std::size_t axis : {0, 2})
-      place.x[axis] =
-          feed.low[axis] + (feed.high[axis] - feed.low[axis]) * core::uniform(seed_, sequence(n, axis / 2), index);
+    for (std::size_t d = 0; d < axes.size(); ++d)
+      place.x[axes[d]] =
+          feed.low[axes[d]] + (feed.high[axes[d]] - feed.low[axes[d]]) * core::uniform(seed_, sequence(n, d), index);
     if (strip.has_room_for(place)) return true;
   }
   return false;
@@ -118,25 +126,27 @@ bool Feeding::find_place(std::size_t n, const FeedStrip& strip, Place& place) {
 
 std::int64_t Feeding::choose(const Model& model, double t) {
   entering_.clear();
-  std::array<std::optional<FeedStrip>, 2> strips;
+  std::array<std::optional<FeedStrip>, names(core::ColumnFace{}).size()> strips;
   for (std::size_t n = 0; n < feeds_.size(); ++n) {
     Feed& feed = feeds_[n];
     if (!feed.due(t)) continue;
     feed.tried_at = t;
-    std::optional<FeedStrip>& strip = strips[feed.top ? 1 : 0];
-    if (!strip) strip.emplace(model, feed.top);
+    std::optional<FeedStrip>& strip = strips[std::size_t(feed.at)];
+    if (!strip) strip.emplace(model, feed.at);
     const Species& s = materials_.species()[std::size_t(feed.species)];
     Place place;
     for (const std::int64_t most = feed.called_for(t); feed.entered < most && find_place(n, *strip, place);) {
       strip->add(place);
-      const Vector v{0, feed.top ? -feed.velocity : feed.velocity, 0};
+      Vector v{};
+      v[std::size_t(axis_of(feed.at))] = side_of(feed.at) == 1 ? -feed.velocity : feed.velocity;
       entering_.push_back({place, {v, 1 / s.mass, {0, 0, 0}, 1 / s.inertia}, {}, next_id_++, feed.species});
       ++feed.entered;
       ++number[std::size_t(feed.species)];
     }
   }
   for (const Particle& p : entering_) {
-    double per_mass = 0.5 * p.motion.v[1] * p.motion.v[1];
+    double per_mass = 0;
+    for (const double v : p.motion.v) per_mass += 0.5 * v * v;
     for (std::size_t k = 0; k < 3; ++k) per_mass -= model.gravity()[k] * p.place.x[k];
     energy.add(per_mass / p.motion.inverse_mass * model.energy_unit().per_unit);
   }

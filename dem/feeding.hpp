@@ -58,7 +58,7 @@ class Feeding final : public KeptPart {
  private:
   struct Feed {
     std::int32_t species;
-    bool top;
+    core::ColumnFace at;
     double velocity;    ///< inwards, m/s
     double pause;       ///< least time between two times that particles enter, s
     fluid::Ramp rate;   ///< superficial velocity of the solids, m/s

@@ -38,7 +38,8 @@ measures::Table<Told> history_table(const Parts& parts) {
       {"mass_fluid", "kg", "of a compressible fluid: in the column, after its last step",
        [](const Told& t) { return t.fluid_mass; }});
   add(parts.outflow,
-      {"out", "1", "with dem.opening or column.outlet = \"open\": particles that have left since the start",
+      {"out", "1",
+       "with dem.opening, column.outlet = \"open\" or [[discharge]]: particles that have left since the start",
        [](const Told& t, measures::Members j) { return measures::sum_of(t.number_out, j); }});
   add(parts.outflow, {"out", "kg", "where particles leave: their mass",
                       [](const Told& t, measures::Members j) { return measures::sum_of(t.mass_out, j); }});

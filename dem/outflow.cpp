@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
 #include <numeric>
 
 #include "core/numerics/messages.hpp"
@@ -14,9 +13,7 @@
 namespace polybed::dem {
 
 Outflow::Outflow(const Box& box, const Materials& materials)
-    : number(materials.species().size(), 0),
-      lowest_(box.opening ? -materials.greatest_diameter() : -std::numeric_limits<double>::infinity()),
-      highest_(box.open_top ? box.size[1] : std::numeric_limits<double>::infinity()) {}
+    : number(materials.species().size(), 0), box_(box), greatest_diameter_(materials.greatest_diameter()) {}
 
 std::int64_t Outflow::all() const { return std::accumulate(number.begin(), number.end(), std::int64_t(0)); }
 

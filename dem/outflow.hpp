@@ -1,6 +1,7 @@
-// What has left the box: through the opening in its bottom, or through its open top.
+// What has left the box: through an opening in its bottom or a side, or through its open top.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -15,10 +16,11 @@ namespace polybed::dem {
 class Model;
 
 /// Particles are taken out when the list of pairs is made anew: once they lie a largest diameter below the bottom, or
-/// wholly beyond the top. The same on every rank, and on any number of ranks to the bit.
+/// wholly beyond the top or a side, or have rolled round the rim of an opening in a side. The same on every rank, and
+/// on any number of ranks to the bit.
 class Outflow final : public KeptPart {
  public:
-  /// Of a box with an opening in the bottom, or an open top.
+  /// Of a box with openings.
   Outflow(const Box& box, const Materials& materials);
 
   std::vector<std::int64_t> number;  ///< of each species, since the start
@@ -28,7 +30,11 @@ class Outflow final : public KeptPart {
   EnergySum energy;
 
   [[nodiscard]] bool takes(const Place& place) const {
-    return place.x[1] < lowest_ || place.x[1] - place.radius > highest_;
+    return std::any_of(box_.openings.begin(), box_.openings.end(), [&](const Opening& o) {
+      const double out = o.outward(place.x), face = o.outward(o.place);
+      if (o.is_bottom()) return out - face > greatest_diameter_;
+      return out - place.radius > face || (out > face && !box_.in_line(o, place.x));
+    });
   }
   /// Particles of all species.
   [[nodiscard]] std::int64_t all() const;
@@ -40,7 +46,8 @@ class Outflow final : public KeptPart {
   void read(const Restored& from) override;
 
  private:
-  double lowest_, highest_;  ///< of centres, and of what a particle must be above with all of it, m; infinite: closed
+  const Box& box_;
+  double greatest_diameter_;  ///< m
 };
 
 }  // namespace polybed::dem

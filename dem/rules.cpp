@@ -1,10 +1,34 @@
 #include "dem/rules.hpp"
 
-#include "core/case/size_classes.hpp"
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/case/resolve.hpp"
 #include "dem/effects/maker.hpp"
 #include "relevance/effect_rules.hpp"
 
 namespace polybed::dem {
+
+namespace {
+
+bool discharges_below(const core::Scene& scene) {
+  return std::any_of(scene.discharges.begin(), scene.discharges.end(),
+                     [](const core::Discharge& d) { return d.at == core::ColumnFace::bottom; });
+}
+
+core::Broken blocked_discharges(const core::Scene& scene) {
+  const double largest = core::largest_diameter(scene);
+  for (std::size_t n = 0; n < scene.discharges.size(); ++n) {
+    const core::Discharge& hole = scene.discharges[n];
+    for (std::size_t d = 0; d < std::min(hole.from.size(), hole.to.size()); ++d)
+      if (hole.to[d] - hole.from[d] < largest * (1 - 1e-12))
+        return core::Broken({std::to_string(n + 1), fmt::format("{:.4g}", largest)});
+  }
+  return {};
+}
+
+}  // namespace
 
 std::vector<core::Rule> key_rules() {
   const std::vector<core::Rule> own{
@@ -35,19 +59,25 @@ const std::vector<core::Rule>& model_rules() {
        "column.shape = \"axisymmetric\": polybed tfm can run it, polybed dem cannot: particles go around the axis; use "
        "\"cylinder\"",
        [](const core::Scene& scene) { return core::broken_if(scene.column.around_axis()); }},
-      {{"feed.at"},
-       "feed.at = \"{}\": polybed tfm can run it, polybed dem cannot: particles enter through the bottom or the top",
+      {{"discharge.at", "column.shape", "wall.shape"},
+       "discharge.at = \"bottom\" in a round column or under a round wall: polybed tfm can run it, polybed dem cannot: "
+       "particles leave through the top, by column.outlet = \"open\", or without a fluid through dem.opening",
        [](const core::Scene& scene) {
-         core::Broken broken;
-         for (std::size_t n = 0; n < scene.feeds.size(); ++n)
-           if (const core::ColumnFace at = scene.feeds[n].at; is_side(at))
-             broken.add({std::string(core::name_of(at))}, core::entry_of(scene, scene.feeds, n));
-         return broken;
+         const bool walls =
+             std::any_of(scene.walls.begin(), scene.walls.end(), [](const auto& w) { return w.is_round(); });
+         return core::broken_if((scene.column.is_round() || walls) && discharges_below(scene));
        }},
-      {{"discharge.at"},
-       "[[discharge]]: polybed tfm can run it, polybed dem cannot: particles leave through the top, by column.outlet = "
-       "\"open\", or without a fluid through dem.opening",
-       [](const core::Scene& scene) { return core::broken_if(scene.fluid.present() && !scene.discharges.empty()); }},
+      {{"discharge.from", "discharge.to", "discharge.at", "species.diameter"},
+       "[[discharge]] number {}: the largest particle, of {} m, must fit through: move discharge.from and discharge.to "
+       "apart",
+       blocked_discharges},
+      {{"discharge.at", "fluid.name", "fluid.equation_of_state"},
+       "[[discharge]] in a compressible fluid: polybed tfm can run it, polybed dem cannot: the mass of the fluid that "
+       "takes the place of a particle as it leaves would be missing; use fluid.equation_of_state = \"incompressible\"",
+       [](const core::Scene& scene) {
+         return core::broken_if(!scene.discharges.empty() && !scene.bed.held && scene.fluid.present() &&
+                                scene.fluid.compressible());
+       }},
       {{"column.outlet", "fluid.name", "fluid.equation_of_state"},
        "column.outlet = \"open\" in a compressible fluid: polybed tfm can run it, polybed dem cannot: the mass of the "
        "fluid that takes the place of a particle as it leaves would be missing; use fluid.equation_of_state = "

@@ -31,6 +31,35 @@ double most_walls(const core::Scene& scene) { return scene.walls.empty() && !sce
 /// Half the height of the side of a round box over the box's: particles fly beyond an open top.
 constexpr double beyond_the_top = 100;
 
+/// Where a discharge ends with its face there is no rim.
+Opening hole_of(const core::Discharge& discharge, const Box& box, int dimensions) {
+  const int axis = axis_of(discharge.at), side = side_of(discharge.at);
+  constexpr double endless = std::numeric_limits<double>::infinity();
+  Opening hole{axis, side, side * box.size[std::size_t(axis)], {}, {endless, endless, endless}};
+  for (std::size_t n = 0; n < discharge.from.size(); ++n) {
+    const auto k = std::size_t(axis_along(discharge.at, dimensions, n));
+    const double far = beyond_the_top * box.size[k];
+    const double low = discharge.from[n] > 0 ? discharge.from[n] : -far,
+                 high = discharge.to[n] < box.size[k] * (1 - 1e-12) ? discharge.to[n] : far;
+    hole.middle[k] = 0.5 * (low + high);
+    hole.half[k] = 0.5 * (high - low);
+  }
+  return hole;
+}
+
+void add_openings(const core::Scene& scene, Box& box) {
+  constexpr double endless = std::numeric_limits<double>::infinity();
+  if (scene.dem.opening) {
+    const double half = 0.5 * *scene.dem.opening;
+    const Vector middle{0.5 * box.size[0], 0, 0.5 * box.size[2]};
+    box.openings.push_back({1, 0, 0, middle, {half, endless, endless}, scene.column.dimensions == 3});
+  }
+  if (is_open_at_top(scene)) box.openings.push_back({1, 1, box.size[1], {}, {endless, endless, endless}});
+  if (scene.bed.held) return;
+  for (const core::Discharge& discharge : scene.discharges)
+    box.openings.push_back(hole_of(discharge, box, scene.column.dimensions));
+}
+
 /// The walls inside, those of a tapered column, and the side of a round box. Those of one shape join: a scene has
 /// either flat ones or round ones.
 void add_plates(const core::Scene& scene, Box& box) {
@@ -66,6 +95,8 @@ double speed_in_fluid(const core::Scene& scene, double first) {
   for (const auto& [t, u] : scene.inlet.superficial_velocity) inflow = std::max(inflow, u * scene.column.contraction());
   for (const core::Jet& jet : scene.jets)
     for (const auto& [t, u] : jet.superficial_velocity) inflow = std::max(inflow, u);
+  for (const core::Discharge& discharge : scene.discharges)
+    for (const auto& [t, u] : discharge.superficial_velocity) inflow = std::max(inflow, u);
   // Channels through a bed: 3 times the velocity between packed particles was met by particles of a settled bed.
   const double channel = scene.bed.solids_fraction > 0 ? 4 * inflow / (1 - scene.bed.solids_fraction) : 0;
   return std::max(2 * (fastest + inflow), channel);
@@ -95,11 +126,13 @@ double fall_height(const core::Scene& scene, const Materials& materials, const B
     for (const Particle& p : start) top = std::max(top, p.place.x[1]);
   else
     top = start_height(scene, materials, box);
-  const bool from_top = std::any_of(scene.feeds.begin(), scene.feeds.end(),
-                                    [](const core::Feed& feed) { return feed.at == core::ColumnFace::top; });
-  if (from_top) top = std::max(top, box.size[1]);
+  for (const core::Feed& feed : scene.feeds)
+    if (feed.at != core::ColumnFace::bottom)
+      top = std::max(top, is_side(feed.at) && !feed.to.empty() ? feed.to.back() : box.size[1]);
   // What leaves falls on by a diameter before it is taken out.
-  return top + (box.opening ? materials.greatest_diameter() : 0);
+  const bool hole =
+      std::any_of(box.openings.begin(), box.openings.end(), [](const Opening& o) { return o.is_bottom(); });
+  return top + (hole ? materials.greatest_diameter() : 0);
 }
 
 }  // namespace
@@ -113,15 +146,13 @@ Box box_of(const core::Scene& scene) {
   box.shear_rate = scene.column.shear_rate;
   box.round = column.is_round();
   if (column.is_tapered()) box.side = TaperedSide(column);
-  if (scene.dem.opening)
-    box.opening = Opening{0.5 * box.size[0], 0.5 * box.size[2], 0.5 * *scene.dem.opening, column.dimensions == 3};
-  box.open_top = is_open_at_top(scene);
+  add_openings(scene, box);
   for (int axis = 0; axis < 3; ++axis) {
     if (box.periodic[std::size_t(axis)] || (box.round && axis != 1)) continue;
     box.walls.push_back({axis, 0, 0});
     // The top of a column without a fluid lets particles fly beyond it, and gravity bring them back, unless it is
     // closed; the screen of one with a fluid stops them.
-    if (axis != 1 || column.closed || (scene.fluid.present() && !box.open_top))
+    if (axis != 1 || column.closed || (scene.fluid.present() && !is_open_at_top(scene)))
       box.walls.push_back({axis, 1, box.size[std::size_t(axis)]});
   }
   add_plates(scene, box);

@@ -182,7 +182,8 @@ ParticleRequirements particle_requirements_of(const core::Scene& scene, const Pa
   need.program = core::process_memory().now + bytes_of_output;
   need.fed = fed_in(scene, materials, box);
   // What runs out of an opening meanwhile is not known: as much as is fed.
-  const double start_count = double(need.count()), more = scene.dem.opening ? 0 : double(sum_of(need.fed));
+  const bool leave = scene.dem.opening || !scene.discharges.empty();
+  const double start_count = double(need.count()), more = leave ? 0 : double(sum_of(need.fed));
   need.particles = bytes_per_particle * (start_count + more);
   need.steps = std::ceil(scene.run.until / need.limits.dt);
   need.particle_steps = need.steps * (start_count + 0.5 * more);

@@ -112,6 +112,7 @@ std::vector<Rule> end_rules() {
           joined_ends_exclude("column.outlet", "column.outlet = \"open\"",
                               [](const Scene& s) { return s.column.outlet == Outlet::open; }),
           joined_ends_exclude("feed.species", "[[feed]]", [](const Scene& s) { return !s.feeds.empty(); }),
+          joined_ends_exclude("discharge.at", "[[discharge]]", [](const Scene& s) { return !s.discharges.empty(); }),
           {{"column.ends", "fluid.name", "dem.shear_rate"},
            "column.ends = \"periodic\" is for particles without a fluid, or for a sheared box whose fluid moves with "
            "its flow: set fluid.name = \"none\", or dem.shear_rate",

@@ -257,6 +257,11 @@ std::vector<Rule> bottom_rules() {
                    "a fluid enters there, and particles leave through the top alone (column.outlet = \"open\"); set "
                    "fluid.name = \"none\"",
                    [](const Scene& scene) { return broken_if(scene.fluid.present()); }),
+      opening_rule({"discharge.at"}, "a [[discharge]] opens the bottom, too: leave one of them out",
+                   [](const Scene& scene) {
+                     return broken_if(std::any_of(scene.discharges.begin(), scene.discharges.end(),
+                                                  [](const auto& d) { return d.at == ColumnFace::bottom; }));
+                   }),
       opening_rule({"column.ends"}, "column.ends = \"periodic\" leaves no bottom to open",
                    [](const Scene& scene) { return broken_if(scene.column.ends == Boundary::periodic); }),
       opening_rule({"column.size"}, "it must be narrower than the bottom, which is {} m {}", wider_than_the_bottom),

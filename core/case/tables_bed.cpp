@@ -199,7 +199,7 @@ Table feed_table() {
       {
           key(&Feed::species, "species", Mark::required,
               help("name of the species that is fed; of one with a distribution: all classes, by their shares")),
-          key(&Feed::at, "at", help("end or side of the column; a side for the TFM only")),
+          key(&Feed::at, "at", help("end or side of the column")),
           key(&Feed::superficial_velocity, "superficial_velocity", dimension::velocity, range(0, 1e3), Mark::required,
               help("volume of solids per area of the feed and time, into the column, besides the fluid of the "
                    "inlet; a velocity or a table as there")),
@@ -218,11 +218,14 @@ Table discharge_table() {
       {
           key(&Discharge::at, "at", Mark::required,
               help("bottom or side through which fluid and solids leave together, as they are in the cells next to it; "
-                   "for the TFM only")),
+                   "in "
+                   "polybed dem particles leave through a hole there with a sharp rim, also without a fluid")),
           key(&Discharge::superficial_velocity, "superficial_velocity", dimension::velocity, range(0, 1e3),
               Mark::required,
               help("volume of the mixture per area of the discharge and time, out of the column; a velocity or a table "
-                   "as of the inlet. Where more enters, the rest leaves at the top, also with inlet.at = \"top\"")),
+                   "as of the inlet. Where more enters, the rest leaves at the top, also with inlet.at = \"top\". "
+                   "Without a "
+                   "fluid it has no effect")),
           key(&Discharge::from, "from", dimension::length, range(0, 1e3),
               help("low corner of the part of the bottom or side, as of a jet; default: all of it")),
           key(&Discharge::to, "to", dimension::length, range(0, 1e3), help("high corner")),

@@ -169,8 +169,7 @@ std::int32_t ContactLoader::find_pairs(const Particles& particles, const Contact
 std::optional<Vector> ContactLoader::from_nearest(std::int32_t wall, const Vector& centre) const {
   const Wall& w = box_.walls[std::size_t(wall)];
   if (w.plate >= 0) return box_.plates[std::size_t(w.plate)].to(centre);
-  if (box_.opening && w.is_bottom()) return box_.opening->from_plate(centre);
-  return {};
+  return box_.from_opened(w.axis, w.side, centre);
 }
 
 double ContactLoader::distance_from(std::int32_t wall, const Place& place) const {
@@ -220,7 +219,7 @@ void ContactLoader::load_pairs(const Particles& particles, const Contacts& conta
   core::in_vectors<split_velocity>(b);
 }
 
-/// Contacts with a bottom that has an opening and with plates, loaded as with a whole face: n, arm and overlap as the
+/// Contacts with a face that has an opening and with plates, loaded as with a whole face: n, arm and overlap as the
 /// nearest point has them.
 void ContactLoader::turn_to_nearest(const Particles& particles, ContactBatch& b) const {
   for (int c = 0; c < b.count; ++c) {

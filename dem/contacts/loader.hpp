@@ -43,7 +43,7 @@ class ContactLoader {
   };
   /// Distance of a centre from a flat wall, positive inside the box, m.
   [[nodiscard]] double height_over(std::int32_t wall, const Place& place) const;
-  /// To a centre from the nearest point of what is left of a bottom with an opening, or of a plate; nothing: of a whole
+  /// To a centre from the nearest point of what is left of a face with an opening, or of a plate; nothing: of a whole
   /// face.
   [[nodiscard]] std::optional<Vector> from_nearest(std::int32_t wall, const Vector& centre) const;
   /// The same where the box is not plain: of these walls the distance from that point, never negative.

@@ -123,7 +123,7 @@ Coupling::Coupling(const core::Scene& scene, const Materials& materials, std::sh
     forces_.see_past_own_wake(*wake);
   if (scene.dem.own_share == core::OwnShare::removed)
     own_.emplace(core::whole_column(flow_.grid()), smoothing_, diameters(materials), forces_.needs_squares());
-  if (is_open_at_top(scene)) scatter_.open_top();
+  if (const Box box = box_of(scene); !box.openings.empty()) scatter_.open(box);
   for (Field& component : vorticity_)
     if (sides_.needs_vorticity()) component = core::make_field(flow_.grid());
   if (!flow_.grid().ranks) return;

@@ -99,7 +99,7 @@ void Coupling::settle_in(const Particles& particles) {
   fetch();
 }
 
-/// They are wholly beyond the top: nothing of them has been in the sums since then, and the fluid does not change.
+/// They are wholly beyond a face: nothing of them has been in the sums since then, and the fluid does not change.
 void Coupling::let_go(const Outflow& outflow, const Particles& particles) {
   SideRows& rows = sides_.rows();
   std::size_t staying = 0;

@@ -39,7 +39,7 @@ Scatter::Scatter(const core::Grid& grid, const core::Grid& block, const Material
 void Scatter::collect(const Particles& particles, const std::vector<FluidLoad>& loads, double dt) {
   std::fill(sums_.begin(), sums_.end(), 0);
   with_count([&](const auto count, const auto round) {
-    if (top_)
+    if (open_)
       core::in_vectors<add_moving<count(), true, round()>>(*this, particles, loads, dt);
     else
       core::in_vectors<add_moving<count(), false, round()>>(*this, particles, loads, dt);
@@ -70,7 +70,7 @@ void Scatter::add_moving(Scatter& sums, const Particles& particles, const std::v
                       f.impulse,
                       std::size_t(particles.species[i])};
     if constexpr (open) {
-      if (sums.top_->cuts(place)) {
+      if (sums.open_->cuts(place)) {
         sums.add_cut<count, round>(place, given);
         continue;
       }
@@ -79,15 +79,15 @@ void Scatter::add_moving(Scatter& sums, const Particles& particles, const std::v
   }
 }
 
-/// All that it gives, in the share that is inside: the fluid beyond the top takes the rest.
+/// All that it gives, in the share that is inside: the fluid beyond the face takes the rest.
 template <std::size_t count, bool round>
 void Scatter::add_cut(const Place& place, Given given) {
-  const double share = top_->inside(place);
+  const double share = open_->inside(place);
   given.volume *= share;
   for (double& amount : given.same) amount *= share;
   for (double& component : given.impulse) component *= share;
   auto kept = shares<round>(place.x);
-  weaken_upright_faces(kept, top_->on_faces(place));
+  weaken_upright_faces(kept, open_->on_faces(place));
   add<count>(kept, given);
 }
 

@@ -8,7 +8,7 @@
 
 #include "core/numerics/ranks.hpp"
 #include "dem/coupling/fluid_motion.hpp"
-#include "dem/coupling/open_top.hpp"
+#include "dem/coupling/open_faces.hpp"
 #include "dem/coupling/round_weights.hpp"
 #include "dem/parallel/grid_exchange.hpp"
 #include "fluid/particle_phase.hpp"
@@ -21,8 +21,8 @@ class Scatter {
   /// \param volume  of all particles, m3  \param speed  greatest expected, m/s
   Scatter(const core::Grid& grid, const core::Grid& block, const Materials& materials, bool added_mass, double volume,
           double speed);
-  /// From here on particles pass the top, and count as far as they are inside.
-  void open_top() { top_.emplace(grid_); }
+  /// From here on particles pass the openings of a box, and count as far as they are inside.
+  void open(const Box& box) { open_.emplace(grid_, box); }
   /// Null in a box.
   [[nodiscard]] const std::shared_ptr<const RoundWeights>& round() const { return round_; }
 
@@ -72,7 +72,7 @@ class Scatter {
 
   core::Grid grid_, block_;
   Weights weights_;
-  std::optional<OpenTop> top_;  ///< absent: no particle passes the top
+  std::optional<OpenFaces> open_;  ///< absent: no particle passes a face
   std::vector<Species> species_;
   std::size_t count_;                          ///< sums on a face: the first of them
   std::size_t of_axis_, width_;                ///< their places on a face, and on all faces and in the cell of an entry

@@ -25,13 +25,17 @@ PORTS = {
     "two discharges overlap: [[discharge]] number {} and {}": [part("discharge", ("left", *LOW), ("left", [0.03], [0.05]))],
     "[[discharge]] number {} overlaps [[{}]] number {}": [part("discharge", ("left", *LOW)), part("jet", ("right", *LOW), ("left", *LOW))],
     "[[discharge]] cannot act: column.closed = true": ["column.closed=true", part("discharge", ("left", *LOW))],
-    '[[discharge]] cannot act: fluid.name = "none"': ["fluid.name=none", part("discharge", ("left", *LOW))],
+    'column.ends = "periodic" and [[discharge]] contradict each other': ["column.ends=periodic", part("discharge", ("left", *LOW))],
     "[[discharge]] cannot act in a sheared box: its fluid moves with its flow": ["dem.shear_rate=1", part("discharge", ("left", *LOW))],
     "[[discharge]] number {} and [[feed]] number {} share a cell ({}): move them apart, or take smaller cells": [
         part("discharge", ("left", [0.02], [0.034])), part("feed", ("left", [0.036], [0.05]))],
+    "dem.opening = {} m: a [[discharge]] opens the bottom, too: leave one of them out": ["dem.opening=0.01", part("discharge", ("bottom", *LOW))],
 }
 PORTS_FOR_ONE_MODEL = {
-    'feed.at = "{}": polybed tfm can run it, polybed dem cannot: particles enter through the bottom or the top': [part("feed", ("left", *LOW))],
-    '[[discharge]]: polybed tfm can run it, polybed dem cannot: particles leave through the top, by column.outlet = "open", or without a '
-    "fluid through dem.opening": [part("discharge", ("left", *HIGH))],
+    'discharge.at = "bottom" in a round column or under a round wall: polybed tfm can run it, polybed dem cannot: particles leave through the '
+    'top, by column.outlet = "open", or without a fluid through dem.opening': [*ROUND, part("discharge", ("bottom", [0.02, 0.02], [0.04, 0.04]))],
+    "[[discharge]] number {}: the largest particle, of {} m, must fit through: move discharge.from and discharge.to apart": [part("discharge", ("left", [0.1], [0.1005]))],
+    "[[discharge]] in a compressible fluid: polybed tfm can run it, polybed dem cannot: the mass of the fluid that takes the place of a particle "
+    'as it leaves would be missing; use fluid.equation_of_state = "incompressible"': [
+        "fluid.name=air", "fluid.equation_of_state=ideal_gas", part("discharge", ("left", *HIGH))],
 }

@@ -48,6 +48,36 @@ LEAVING = dem_ranks_test.WET.replace("depth", 'outlet = "open"\ndepth').replace(
     'particles = [80, 120]\nstart = "mixed"', 'start = "list:particles.csv"').replace("start_solids_fraction = 0.4\n", "")
 
 
+# the same water through whose left side particles are fed, and which takes others out through the right one
+SIDES = dem_ranks_test.WET + """[[feed]]
+species = "b"
+at = "left"
+from = ["3 mm"]
+to = ["15 mm"]
+superficial_velocity = "40 mm/s"
+velocity = "0.25 m/s"
+[[discharge]]
+at = "right"
+from = ["2 mm"]
+to = ["14 mm"]
+superficial_velocity = "0.2 m/s"
+"""
+# and without it, thrown at the hole
+THROWN = dem_ranks_test.CORNER.replace("40 mm", "21 mm").replace(LISTED, LISTED + "solids_fraction = 0.6\n") + """[[discharge]]
+at = "right"
+from = ["2 mm"]
+to = ["24 mm"]
+superficial_velocity = 0
+[[feed]]
+species = "a"
+at = "left"
+from = ["26 mm"]
+to = ["29 mm"]
+superficial_velocity = "20 mm/s"
+velocity = "0.5 m/s"
+"""
+
+
 def below_top():
     """A block of 10 by 4 by 2 particles, the uppermost 0.3 mm below the top."""
     spread = random.Random(5)
@@ -91,6 +121,22 @@ class FeedRanks(Scratch):
         case = self.scene(dem_ranks_test.WET + feed, common=dem_ranks_test.WITH_FLUID)
         records = self.check_same(case, restart=(4, 2), numbers=(1, 2, 4), steps=dem_ranks_test.FEWER)
         self.assertEqual(records[1]["feed"]["b"]["particles"], 17)  # 40 mm/s of 28.8 mm2 for 4 ms
+
+    def check_sides(self, case, **words):
+        records = self.check_same(case, **words)
+        passed = {json.dumps([record["feed"], record["outflow"], record["particles"], record["energy"]["carried_out_J"]]) for record in records.values()}
+        self.assertEqual(len(passed), 1, passed)
+        return records[1]
+
+    def test_particles_that_cross_the_sides_of_a_fluid(self):
+        record = self.check_sides(self.scene(SIDES, common=dem_ranks_test.WITH_FLUID), restart=(3, 2), numbers=(1, 2, 3),
+                                  steps=dem_ranks_test.FEWER)
+        self.assertEqual(record["feed"]["b"]["particles"], 17)  # 40 mm/s of 28.8 mm2 for 4 ms
+
+    def test_particles_that_cross_the_sides(self):
+        record = self.check_sides(self.scene(THROWN, dem_ranks_test.in_corner()), restart=(3, 2), numbers=(1, 2, 3))
+        self.assertGreater(record["outflow"]["a"]["particles"], 5)
+        self.assertGreater(record["feed"]["a"]["particles"], 0)
 
     def test_particles_that_a_fluid_carries_out(self):
         case = self.scene(LEAVING, below_top(), common=dem_ranks_test.WITH_FLUID)

@@ -1,5 +1,5 @@
-// What a particle that passes an open top counts for the fluid, against values by hand.
-#include "dem/coupling/open_top.hpp"
+// What a particle that passes an open top or a hole in a side counts for the fluid, against values by hand.
+#include "dem/coupling/open_faces.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,6 +7,7 @@
 
 #include "cloud.hpp"
 #include "dem/coupling/scatter.hpp"
+#include "dem/scene.hpp"
 
 namespace polybed::dem::test {
 namespace {
@@ -19,9 +20,16 @@ struct ToFluid {
   std::vector<core::Field> fraction;
 };
 
+Box open_top() {
+  core::Scene scene = cloud_scene(3, false);
+  scene.column.outlet = core::Outlet::open;
+  scene.column.closed = false;
+  return box_of(scene);
+}
+
 ToFluid give(const Cloud& cloud, bool open) {
   Scatter scatter(cloud.grid, cloud.grid, cloud.materials, false, cloud.volume, 0.2);
-  if (open) scatter.open_top();
+  if (open) scatter.open(open_top());
   ToFluid given{fluid::ParticlePhase(cloud.grid, false), {core::make_field(cloud.grid), core::make_field(cloud.grid)}};
   scatter.collect(cloud.particles, cloud.loads, 1e-3);
   scatter.give(nullptr, nullptr, true, given.phase, given.fraction);
@@ -38,8 +46,8 @@ Cloud sphere_at(double above) {
 double sum(const core::Field& field) { return std::accumulate(field.begin(), field.end(), 0.0); }
 
 // A cap of height h has the volume pi h^2 (3 r - h)/3: with h = r/2 that is 5/32 of the sphere.
-TEST(OpenTop, LeavesTheShareOfASphericalCap) {
-  const OpenTop top(core::grid_of(cloud_scene(3, false).column, nullptr));
+TEST(OpenFaces, LeavesTheShareOfASphericalCap) {
+  const OpenFaces top(core::grid_of(cloud_scene(3, false).column, nullptr), open_top());
   const auto share = [&](double above) { return top.inside({{5e-3, height + above, 5e-3}, r}); };
   EXPECT_NEAR(share(-2 * r), 1, 1e-14);
   EXPECT_NEAR(share(-r), 1, 1e-12);
@@ -53,7 +61,7 @@ TEST(OpenTop, LeavesTheShareOfASphericalCap) {
 
 // Half a radius above the top: 5/32 of the sphere are in the uppermost cell. On the face, which stands for half a cell,
 // the weight is 1 - 0.275/2, twice.
-TEST(OpenTop, GivesTheFluidTheShareInside) {
+TEST(OpenFaces, GivesTheFluidTheShareInside) {
   Cloud cloud = sphere_at(0.5 * r);
   FluidLoad& f = cloud.loads[0];
   const double mass = 1 / cloud.particles.motion[0].inverse_mass, psi = cloud.grid.cell_volume();
@@ -73,7 +81,7 @@ TEST(OpenTop, GivesTheFluidTheShareInside) {
 
 // Over the passage of a particle the flux through the top adds up to its volume, and what is in the cells falls from
 // all of it to nothing without a jump. Midpoints on both sides of the top: the sum has no error but round-off.
-TEST(OpenTop, TakesTheVolumeOfAParticleThroughTheTop) {
+TEST(OpenFaces, TakesTheVolumeOfAParticleThroughTheTop) {
   constexpr int steps = 150;  // on either side, to 3 mm
   constexpr double step = cell / 100;
   double through = 0, before = 1;
@@ -92,8 +100,26 @@ TEST(OpenTop, TakesTheVolumeOfAParticleThroughTheTop) {
   EXPECT_NEAR(through, 1, 1e-11);
 }
 
+// A hole from 4 to 8 mm of the left side: in line with it, and beyond the side, the part inside counts; what is pressed
+// into the wall beside it counts whole. By hand: caps as above.
+TEST(OpenFaces, CutAtAHoleInASide) {
+  core::Scene scene = cloud_scene(3, false);
+  scene.column.closed = false;
+  scene.discharges.push_back({core::ColumnFace::left, {0, 4e-3}, {scene.column.size[2], 8e-3}, {{0.0, 0.1}}});
+  const OpenFaces side(core::grid_of(scene.column, nullptr), box_of(scene));
+  const auto at = [](double x, double y) { return Place{{x, y, 5e-3}, r}; };
+  EXPECT_FALSE(side.cuts(at(1.001 * r, 6e-3)));
+  EXPECT_FALSE(side.cuts(at(0.99 * r, 3.9e-3)));
+  EXPECT_FALSE(side.cuts(at(0.99 * r, 8.1e-3)));
+  EXPECT_EQ(side.inside(at(0.99 * r, 3.9e-3)), 1);
+  EXPECT_NEAR(side.inside(at(0.5 * r, 6e-3)), 27.0 / 32, 1e-12);
+  EXPECT_NEAR(side.inside(at(0, 4.1e-3)), 0.5, 1e-12);
+  EXPECT_NEAR(side.inside(at(-0.5 * r, 3.9e-3)), 5.0 / 32, 1e-12);
+  EXPECT_EQ(side.on_faces(at(-0.5 * r, 6e-3)), 1);
+}
+
 // Particles that do not reach the top count as in a column that is shut, to the bit.
-TEST(OpenTop, ChangesNothingBelowIt) {
+TEST(OpenFaces, ChangesNothingBelowIt) {
   Cloud cloud(cloud_scene(3, false), 200);
   for (Place& place : cloud.particles.place) place.x[1] *= 0.9;
   const ToFluid open = give(cloud, true), shut = give(cloud, false);

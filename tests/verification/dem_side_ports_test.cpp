@@ -1,0 +1,240 @@
+// Particles that enter and leave through the sides of a column: the rim of a hole, what passing particles count for in
+// a fluid, and the accounts.
+#include <numeric>
+
+#include "measures/particle_profile.hpp"
+#include "scenes/dem_scenes.hpp"
+#include "scenes/wet_beads.hpp"
+
+namespace polybed::scenes {
+namespace {
+
+using core::ColumnFace;
+
+constexpr double r = 0.5e-3, youngs_modulus = 5e6, poisson_ratio = 0.25, density = 2500, width = 0.02;
+
+/// A box of 20 mm with a hole in a side, 6 mm wide and from 4 to 8 mm high.
+core::Scene holed(ColumnFace at) {
+  core::Scene scene = dry_box(r, {youngs_modulus, poisson_ratio, density}, {width, width, width});
+  scene.discharges.push_back({at, {7e-3, 4e-3}, {13e-3, 8e-3}, {{0.0, 0.1}}});
+  return scene;
+}
+
+/// A place: outward from a side, up, and along the side, m.
+dem::Vector beside(ColumnFace at, double out, double up, double along) {
+  const double across = side_of(at) == 0 ? -out : width + out;
+  return axis_of(at) == 0 ? dem::Vector{across, up, along} : dem::Vector{along, up, across};
+}
+
+// Hertz's force along the line to the nearest point of what is left of the side: the rim from inside, in the plane and
+// from outside, the face from inside and outside; amid the hole none. In a corner of it the nearer edge alone pushes.
+TEST(DemSidePorts, AHolePushesFromItsRim) {
+  const double k = 4.0 / 3 * youngs_modulus / (1 - poisson_ratio * poisson_ratio) * std::sqrt(r), deep = 5e-6;
+  const double force = k * std::pow(deep, 1.5), allowed = 1e-10 * force;  // places are known to 2e-18 m
+  for (const ColumnFace at : {ColumnFace::left, ColumnFace::right, ColumnFace::front, ColumnFace::back}) {
+    const auto check = [&](double foot_up, double foot_along, double out, double up, double along) {
+      const double far = r - deep, outward = side_of(at) == 0 ? -1 : 1;
+      Beads beads(holed(at), {{"a", {0.01, 0.01, 0.01}}});
+      core::Checkpoint there = beads.model.checkpoint();
+      const dem::Vector x = beside(at, far * out, foot_up + far * up, foot_along + far * along);
+      std::copy(x.begin(), x.end(), there.arrays.at("particles").begin() + 2);  // after id and species
+      beads.model.start_from(there);
+      const dem::Vector found = beads.force(0);
+      const auto across = std::size_t(axis_of(at)), beside_it = 2 - across;
+      EXPECT_NEAR(found[across], force * out * outward, allowed) << name_of(at) << " " << foot_up;
+      EXPECT_NEAR(found[1], force * up, allowed) << name_of(at) << " " << foot_up;
+      EXPECT_NEAR(found[beside_it], force * along, allowed) << name_of(at) << " " << foot_up;
+    };
+    for (const double out : {-0.8, 0.0, 0.6}) {
+      const double aside = std::sqrt(1 - out * out);
+      check(4e-3, 10e-3, out, aside, 0);
+      check(8e-3, 10e-3, out, -aside, 0);
+      check(6e-3, 7e-3, out, 0, aside);
+      check(6e-3, 13e-3, out, 0, -aside);
+      check(4e-3, 7.51e-3, out, aside, 0);
+    }
+    check(3e-3, 10e-3, -1, 0, 0);
+    check(6e-3, 14e-3, -1, 0, 0);
+    Beads amid(holed(at), {{"a", beside(at, -0.2e-3, 6e-3, 10e-3)}});
+    EXPECT_EQ(amid.force(0), (dem::Vector{0, 0, 0}));
+  }
+}
+
+// A hole that begins at the bottom has no rim there, one of the whole side none at all: a sphere slides out.
+TEST(DemSidePorts, AHoleEndsWithItsSide) {
+  for (const bool whole : {false, true}) {
+    core::Scene scene = holed(ColumnFace::right);
+    core::Discharge& hole = scene.discharges[0];
+    if (whole)
+      hole.from = hole.to = {};
+    else
+      hole.from[1] = 0;
+    Beads beads(scene, {{"a", {width - 2e-3, r, 0.01}, {0.5, 0, 0}}});
+    while (beads.model.particle_count() > 0) {
+      ASSERT_LT(beads.model.time(), 0.01);
+      ASSERT_TRUE(beads.model.walls().touching.empty());
+      ASSERT_EQ(beads.motion(0).v, (dem::Vector{0.5, 0, 0}));
+      beads.steps(1);
+    }
+    EXPECT_EQ(beads.model.outflow()->number, std::vector<std::int64_t>{1});
+  }
+}
+
+// Without loss a sphere that strikes the rim on its way out takes with it what it had: m g h and m v^2/2. 1e-4: the
+// integration's error of an impact of 100 steps.
+TEST(DemSidePorts, TakesOutTheEnergyThatCameIn) {
+  for (const ColumnFace at : {ColumnFace::left, ColumnFace::back}) {
+    core::Scene scene = holed(at);
+    scene.column.gravity = 9.81;
+    core::set_restitution(scene, 1);
+    core::set_friction(scene, 0);
+    scene.dem.steps_per_contact = 100;
+    const double out = side_of(at) == 0 ? -0.4 : 0.4;
+    const dem::Vector v = axis_of(at) == 0 ? dem::Vector{out, -0.1, 0} : dem::Vector{0, -0.1, out};
+    Beads beads(scene, {{"a", beside(at, -3e-3, 5.5e-3, 0.0104), v}});
+    bool struck = false;
+    beads.run_while([&] {
+      struck = struck || !beads.model.walls().touching.empty();
+      return beads.model.particle_count() > 0;
+    });
+    EXPECT_TRUE(struck);
+    const dem::Totals now = dem::totals_of(beads.model);
+    EXPECT_EQ(now.kinetic + now.potential + now.rotational + now.elastic, 0);
+    compare("carried out", now.carried_out, mass_of(r, density) * (9.81 * 5.5e-3 + 0.5 * 0.17), 1e-4);
+    beads.steps(100);  // an empty box goes on
+  }
+}
+
+/// Solids in all cells, m3.
+double solids_of(const dem::Model& model) {
+  const dem::Coupling::Column column = model.coupling()->column();
+  double sum = 0;
+  for (const core::Field& phi : column.fraction)
+    core::for_each_row(column.grid, [&](core::Index begin, core::Index end) {
+      sum = std::accumulate(phi.begin() + begin, phi.begin() + end, sum);
+    });
+  return sum * column.grid.cell_volume();
+}
+
+// A bead that water carries out through a side: the part inside is in the cells at every step.
+TEST(DemSidePorts, CountsAParticleAsFarAsItIsInside) {
+  core::Scene scene = wet_box(2 * r, 1050, water, {12e-3, 12e-3, 12e-3}, {8, 8, 8});
+  scene.column.closed = false;
+  scene.inlet.superficial_velocity = {{0.0, 0.0}};
+  scene.jets.push_back({{3e-3, 3e-3}, {9e-3, 9e-3}, {{0.0, 0.3}}, ColumnFace::front});
+  scene.discharges.push_back({ColumnFace::back, {3e-3, 3e-3}, {9e-3, 9e-3}, {{0.0, 0.3}}});
+  Beads beads(scene, {{"a", {6e-3, 6e-3, 11e-3}, {0, 0, 0.2}}});
+  const double volume = measures::sphere_volume_below(r, 0, r);
+  bool cut = false;
+  while (true) {
+    ASSERT_LT(beads.model.time(), 0.05);
+    beads.steps(1);
+    if (beads.model.particle_count() == 0) break;
+    const double inside = measures::sphere_volume_below(r, beads.place(0).x[2], 12e-3);
+    cut = cut || (inside > 0.3 * volume && inside < 0.7 * volume);
+    ASSERT_NEAR(solids_of(beads.model), inside, 1e-9 * volume);
+    ASSERT_GT(beads.motion(0).v[2], 0.1);
+  }
+  EXPECT_TRUE(cut);
+  EXPECT_EQ(solids_of(beads.model), 0);
+}
+
+/// Two species in water that a discharge draws off; light ones are fed from the other side.
+core::Scene overflowing() {
+  core::Scene scene = wet_box(1.2e-3, 2500, water, {8e-3, 12e-3, 3e-3}, {4, 6, 1});
+  scene.species.push_back(sphere("b", 0.4e-3, {3e5, 0.25, 1100}));
+  scene.species[0].youngs_modulus = 3e5;
+  scene.column.closed = false;
+  scene.column.sides = core::Boundary::wall;
+  scene.column.gravity = 9.81;
+  scene.inlet.superficial_velocity = {{0.0, 0.03}};
+  scene.effects["drag"] = "cello";
+  scene.effects["added_mass"] = "zuber";
+  scene.dem.fluid_every = 16;
+  scene.dem.greatest_speed = 0.3;
+  scene.discharges.push_back({ColumnFace::right, {3.5e-3}, {6.5e-3}, {{0.0, 0.15}}});
+  scene.feeds.push_back({"b", ColumnFace::left, {{0.0, 0.01}}, 0.15, {4e-3}, {7e-3}});
+  return scene;
+}
+
+std::vector<Bead> layers() {
+  std::vector<Bead> beads = cubic_lattice("a", 1.5e-3, {7.5e-3, 3e-3, 3e-3});
+  for (Bead bead : cubic_lattice("b", 1e-3, {8e-3, 4e-3, 3e-3})) {
+    bead.x[1] += 3.2e-3;
+    beads.push_back(bead);
+  }
+  return beads;
+}
+
+// Every particle is in the column, or came in or went and is counted, by species; the ledger closes to V5.
+TEST(DemSidePorts, KeepCountAndLedger) {
+  Beads beads(overflowing(), layers());
+  const dem::Model& model = beads.model;
+  const dem::Totals start = dem::totals_of(model);
+  double greatest = 0, miss = 0;
+  while (model.outflow()->number[1] < 40) {
+    ASSERT_LT(model.time(), 1) << "no longer leaves";
+    beads.steps(1);
+    if (model.steps() % 200 != 0) continue;
+    const dem::Totals now = dem::totals_of(model);
+    greatest = std::max({greatest, now.kinetic + now.rotational, now.dissipated, now.elastic, std::abs(now.work)});
+    miss = std::max(miss, std::abs(now.sum() - start.sum()));
+    std::array<std::int64_t, 2> inside{};
+    for (std::size_t i = 0; i < model.particles().owned; ++i) ++inside[std::size_t(model.particles().species[i])];
+    ASSERT_EQ(inside[0] + model.outflow()->number[0], 20);
+    ASSERT_EQ(inside[1] + model.outflow()->number[1], 96 + model.feeding()->number[1]);
+    ASSERT_EQ(inside[0] + inside[1], model.particle_count());
+  }
+  EXPECT_GT(model.feeding()->all(), 5);
+  compare("ledger of side ports", miss / greatest, 0, 1e-3, 1);
+}
+
+TEST(DemSidePorts, ResumeWithTheSameBits) {
+  const core::Scene scene = overflowing();
+  Beads through(scene, layers()), again(scene, layers());
+  const auto left = [&] { return through.model.outflow()->number[1]; };
+  through.run_while([&] { return left() < 10; }, 100'000);
+  through.steps(16 - through.model.steps() % 16);  // to the end of a step of the fluid
+  through.model.restart();
+  again.model.resume(through.model.checkpoint());
+  for (Beads* run : {&through, &again}) run->steps(3200);
+  EXPECT_GT(left(), 10);
+  const core::Checkpoint one = through.model.checkpoint(), other = again.model.checkpoint();
+  EXPECT_EQ(one.integers, other.integers);
+  EXPECT_EQ(one.numbers, other.numbers);
+  EXPECT_EQ(one.arrays, other.arrays);
+}
+
+// By hand: 10 mm/s of 6 by 4 mm for 20 ms are 4.8 mm3, 9 spheres of 0.5236 mm3. They enter within the port at the given
+// velocity, and bring m v^2/2 each.
+TEST(DemSidePorts, AFeedEntersThroughItsPort) {
+  for (const ColumnFace at : {ColumnFace::left, ColumnFace::right, ColumnFace::front, ColumnFace::back}) {
+    core::Scene scene = dry_box(r, {youngs_modulus, poisson_ratio, density}, {width, width, width});
+    scene.feeds.push_back({"a", at, {{0.0, 0.01}}, 0.5, {7e-3, 4e-3}, {13e-3, 8e-3}});
+    Beads beads(scene, {{"a", {0.01, 0.019, 0.01}}});
+    beads.until(0.02);
+    const dem::Particles& particles = beads.model.particles();
+    const auto across = std::size_t(axis_of(at)), along = 2 - across;
+    ASSERT_EQ(beads.model.feeding()->number, std::vector<std::int64_t>{9});
+    for (std::size_t i = 0; i < particles.owned; ++i) {
+      if (particles.id[i] == 0) continue;
+      const dem::Vector& x = particles.place[i].x;
+      EXPECT_EQ(particles.motion[i].v[across], side_of(at) == 0 ? 0.5 : -0.5);
+      EXPECT_TRUE(x[1] >= 4e-3 + r && x[1] <= 8e-3 - r && x[along] >= 7e-3 + r && x[along] <= 13e-3 - r);
+    }
+    compare("carried in", dem::totals_of(beads.model).carried_in, 9 * mass_of(r, density) * 0.125, 1e-9);
+  }
+}
+
+TEST(DemSidePorts, AreAbsentFromAFixedBedAndAWholeBox) {
+  core::Scene scene = overflowing();
+  scene.feeds.clear();
+  EXPECT_NE(Beads(scene, layers()).model.outflow(), nullptr);
+  scene.bed.held = true;
+  EXPECT_EQ(Beads(scene, layers()).model.outflow(), nullptr);
+  scene.discharges.clear();
+  EXPECT_TRUE(Beads(scene, layers()).model.box().plain());
+}
+
+}  // namespace
+}  // namespace polybed::scenes
