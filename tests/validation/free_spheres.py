@@ -1,10 +1,12 @@
 #!/usr/bin/python3
-"""Spheres that settle freely in resolved flow: free_spheres.py PROGRAM FOLDER [one_size | box | grid | viscous | relative | system_b]
+"""Spheres that settle freely in resolved flow: free_spheres.py PROGRAM FOLDER [TABLE] [--voidage ...] [--boxes N]
 
 one_size: hindered settling of beads of one size beside Richardson and Zaki's law (1954), resolved settling of Yin and Koch (2007) and a law of
 held spheres. box: more and more beads in a box, with the limit of a large one. grid, viscous: finer cells, a more viscous liquid. relative: forces
-by relative motion on finer and finer grids. system_b: fine and coarse of cases/matsuura-akehata at a voidage of 0.87, free and held; the held
-species at the slip at which its drag bears its own weight. Prints the rows of the record. Rows that are finished are kept: the same command goes on.
+by relative motion on finer and finer grids. system_b: fine and coarse of cases/matsuura-akehata, free and held; the held species at the slip at
+which its drag bears its own weight; then the same boxes over half of the time, and the first of them on a finer grid. mixtures: two sizes of one
+density. Prints the rows of the record; s is the time on the clock of all boxes of a row. Boxes that are finished are kept: the same command goes
+on, more --boxes add to them.
 """
 import argparse
 import csv
@@ -13,7 +15,7 @@ import subprocess
 from pathlib import Path
 
 import numpy as np
-from inversion_from_rows import carrying
+from inversion_from_rows import with_error
 from scipy.optimize import brentq
 from strips import ROOT
 
@@ -50,22 +52,25 @@ until = "1 s"
 """
 
 
+FILM = ['effects.lubrication="film"']
+HELD_RE = {0.87: (20, 35), 0.8: (12, 24)}  # rows around the velocities that carry fine and coarse of system B
 HELD = "vbk_theory"  # of one size: Beetstra, van der Hoef and Kuipers (2007)
 UNTIL = {0.95: '"2 s"', 0.8: '"2 s"'}  # half of the default: means over more spheres need less time
 TWO = """[[species]]
 name = "coarse"
-diameter = 3e-3
+diameter = {coarse}
 density = 1300.0
 [bed]
-volume_share = [0.5, 0.5]"""
+volume_share = [{fine}, {share}]"""
 
 
-def rows(program, case, folder, *settings):
-    """Those of polybed resolve, by name."""
-    words = [word for setting in settings for word in ("--set", f"resolve.{setting}")]
+def rows(program, case, folder, *settings, effects=()):
+    """Those of polybed resolve, by name, and the seconds on the clock of all their boxes."""
+    words = [word for setting in [f"resolve.{name}" for name in settings] + list(effects) for word in ("--set", setting)]
     again = ["--resume"] if (folder / "boxes.csv").exists() else []
-    done = subprocess.run([program, "resolve", case, "-o", folder, "--quiet", *again, *words], capture_output=True, text=True, check=True)
-    return [{name: float(cell) for name, cell in row.items() if cell} for row in csv.DictReader(done.stdout.splitlines())]
+    done = subprocess.run([program, "resolve", case, "-o", folder, "--quiet", *again, *words], stdout=subprocess.PIPE, text=True, check=True)
+    seconds = sum(float(line.split(",")[6]) for line in (folder / "boxes.csv").read_text().splitlines()[1:])
+    return [{**{name: float(cell) for name, cell in row.items() if cell}, "seconds": seconds} for row in csv.DictReader(done.stdout.splitlines())]
 
 
 def alone(viscosity):
@@ -116,13 +121,13 @@ def of_law(row, law):
     return f"{row['u_1'] / law:.3f} ± {row['u_1_se'] / law:.3f}"
 
 
-def one_size(program, folder):
-    print("| voidage | Re | free, mm/s | Richardson and Zaki | free over it | Yin and Koch over it | held law over it |\n" + "| --- " * 7 + "|")
-    for voidage in (0.95, 0.9, 0.8, 0.65):
-        row = settled(program, folder, voidage, 40, 3)
+def one_size(program, folder, voidages=(0.95, 0.9, 0.8, 0.65), boxes=4):
+    print("| voidage | Re | free, mm/s | Richardson and Zaki | free over it | Yin and Koch over it | held law over it | s |\n" + "| --- " * 8 + "|")
+    for voidage in voidages:
+        row = settled(program, folder, voidage, 40, boxes)
         law = richardson_zaki(voidage)
         print(f"| {voidage} | {row['Re']:.1f} | {1e3 * row['u_1']:.1f} ± {1e3 * row['u_1_se']:.1f} | {1e3 * law:.1f} | {of_law(row, law)} | "
-              f"{yin_koch(voidage) / law:.3f} | {held(program, voidage) / law:.3f} |")
+              f"{yin_koch(voidage) / law:.3f} | {held(program, voidage) / law:.3f} | {row['seconds']:.0f} |", flush=True)
 
 
 def box(program, folder):
@@ -169,7 +174,7 @@ def viscous(program, folder):
 def relative(program, folder):
     folder.mkdir(parents=True, exist_ok=True)
     case = folder / "two.toml"
-    case.write_text(CASE.format(**LIQUID).replace("[bed]\nvolume_share = [1.0]", TWO))
+    case.write_text(CASE.format(**LIQUID).replace("[bed]\nvolume_share = [1.0]", TWO.format(coarse=3e-3, fine=0.5, share=0.5)))
     print("| voidage | cells per fine diameter | f_11 | f_12 | f_21 | f_22 | f_11 + f_12 |\n" + "| --- " * 7 + "|")
     for voidage, grids in ((0.6, (6, 9, 12, 18)), (0.87, (6, 9))):
         for cells in grids:
@@ -179,21 +184,60 @@ def relative(program, folder):
             print(f"| {voidage} | {cells} | " + " | ".join(f"{value:.3f}" for value in f) + f" | {f[0] + f[1]:.3f} |")
 
 
-def system_b(program, folder):
-    common = ["voidage=[0.87]", "cells_per_diameter=8", "grids=1", "packings=2", "spheres=44"]
+def slips(row):
+    """Of fine and coarse, with their errors, mm/s."""
+    return [(1e3 * row[f"u_{j}"], 1e3 * row.get(f"u_{j}_se", np.nan)) for j in (1, 2)]
+
+
+def two_line(what, u, seconds):
+    (fine, fine_se), (coarse, coarse_se) = u
+    ratio = coarse / fine
+    print(f"| {what} | {fine:.1f} ± {fine_se:.1f} | {coarse:.1f} ± {coarse_se:.1f} | {ratio:.2f} ± "
+          f"{ratio * np.hypot(fine_se / fine, coarse_se / coarse):.2f} | {seconds:.0f} |", flush=True)
+
+
+def system_b(program, folder, voidages=(0.87, 0.8), boxes=4):
     case = ROOT / "cases/matsuura-akehata/case.toml"
-    [free] = rows(program, case, folder / "free", "motion=free", 'until="0.6 s"', *common)
-    held = rows(program, case, folder / "held", "reynolds=[20, 35]", *common)
-    sauter = 1 / sum(free[f"x{j}"] / free[f"D{j}"] for j in (1, 2))
-    reynolds = np.array([row["Re"] for row in held])
-    at = [carrying(reynolds, np.array([row[f"n_{j}"] for row in held]), j - 1, sauter) for j in (1, 2)]
-    print("| spheres | fine, mm/s | coarse, mm/s | coarse over fine |\n| --- | --- | --- | --- |")
-    print(f"| held | {at[0]:.1f} | {at[1]:.1f} | {at[1] / at[0]:.2f} |")
-    u, error = ([1e3 * free[f"u_{j}{end}"] for j in (1, 2)] for end in ("", "_se"))
-    print(f"| free | {u[0]:.1f} ± {error[0]:.1f} | {u[1]:.1f} ± {error[1]:.1f} | {u[1] / u[0]:.2f} |")
+    print("| voidage | spheres | boxes | cells | until, s | fine, mm/s | coarse, mm/s | coarse over fine | s |\n" + "| --- " * 9 + "|")
+
+    def free(voidage, until=0.6, cells=8, packings=boxes):
+        [row] = rows(program, case, folder / f"{voidage}-{until}-{cells}", "motion=free", f'until="{until} s"', f"voidage=[{voidage}]",
+                     f"cells_per_diameter={cells}", "grids=1", f"packings={packings}", "spheres=44", effects=FILM)
+        two_line(f"{voidage} | free | {packings} | {cells} | {until}", slips(row), row["seconds"])
+
+    def held(voidage):
+        found = rows(program, case, folder / f"{voidage}-held", f"reynolds={list(HELD_RE.get(voidage, (15, 30)))}", f"voidage=[{voidage}]",
+                     "cells_per_diameter=8", "grids=1", f"packings={boxes}", "spheres=44")
+        sauter = 1 / sum(found[0][f"x{j}"] / found[0][f"D{j}"] for j in (1, 2))
+        reynolds = np.array([row["Re"] for row in found])
+        u = [with_error(reynolds, *(np.array([row[f"n_{j}{end}"] for row in found]) for end in ("", "_se")), j - 1, sauter) for j in (1, 2)]
+        two_line(f"{voidage} | held | {boxes} | 8 | ", u, found[0]["seconds"])
+
+    for voidage in voidages:
+        free(voidage)
+        held(voidage)
+    free(voidages[0], until=0.3)
+    free(voidages[0], until=0.3, cells=12, packings=1)
 
 
-TABLES = {table.__name__: table for table in (one_size, box, grid, viscous, relative, system_b)}
+def mixtures(program, folder, voidages=(0.9, 0.8, 0.65), boxes=4):
+    print("| ratio | share | voidage | fine, mm/s | coarse, mm/s | coarse over fine | s |\n" + "| --- " * 7 + "|")
+    for ratio in (1.5, 2, 3):
+        for share in (0.1, 0.5, 0.9):
+            two = TWO.format(coarse=ratio * BEADS["diameter"], fine=1 - share, share=share)
+            case = folder / f"{ratio}-{share}.toml"
+            folder.mkdir(parents=True, exist_ok=True)
+            case.write_text(CASE.format(**LIQUID).replace("[bed]\nvolume_share = [1.0]", two))
+            numbers = np.array([1 - share, share / ratio**3])
+            for voidage in voidages:
+                coarse = max(2, 19 * share * (1 - voidage))  # at least two, in a box at least 2.1 of them wide
+                spheres = max(40, int(np.ceil(coarse * sum(numbers) / numbers[1])))
+                [row] = rows(program, case, folder / f"{ratio}-{share}-{voidage}", "motion=free", f"voidage=[{voidage}]", "cells_per_diameter=8",
+                             "grids=1", f"packings={boxes}", f"spheres={spheres}")
+                two_line(f"{ratio} | {share} | {voidage}", slips(row), row["seconds"])
+
+
+TABLES = {table.__name__: table for table in (one_size, box, grid, viscous, relative, system_b, mixtures)}
 
 
 def main():
@@ -201,10 +245,13 @@ def main():
     parser.add_argument("program", type=Path)
     parser.add_argument("folder", type=Path)
     parser.add_argument("what", nargs="?", choices=TABLES)
+    parser.add_argument("--voidage", type=float, nargs="+", help="of one_size, system_b and mixtures")
+    parser.add_argument("--boxes", type=int, help="of each of their rows")
     given = parser.parse_args()
+    asked = {name: value for name, value in (("voidages", given.voidage), ("boxes", given.boxes)) if value}
     for name, table in TABLES.items():
         if given.what in (None, name):
-            table(given.program, given.folder / name)
+            table(given.program, given.folder / name, **(asked if "boxes" in table.__code__.co_varnames else {}))
 
 
 if __name__ == "__main__":
