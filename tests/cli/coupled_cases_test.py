@@ -53,6 +53,17 @@ class CoupledCases(Scratch):
         self.assertAlmostEqual(drop / rows["buoyant_weight_Pa"][0], 1, delta=0.01)
         self.assertGreater(rows["bed_height_m"][-1], rows["bed_height_m"][0])  # it expands; settling would be lower
 
+    def test_beads_cross_the_sides_of_a_weir(self):
+        """By hand 8 mm/s through 6 by 3 mm call for 82 beads of 1 mm in 0.3 s; a few wait for room. Those that are seen to leave lie above the
+        sill, 20 mm high, where the bed starts."""
+        record, _ = self.dem("weir", run__until=0.3)
+        fed, out = (record[key]["beads"]["particles"] for key in ("feed", "outflow"))
+        self.assertEqual(fed + record["feed"]["beads"]["waiting"], 82)
+        self.assertGreater(fed, 70)
+        self.assertGreater(out, 10)
+        self.assertEqual(record["particles"], 990 + fed - out)
+        self.assertTrue(all(invariant["held"] for invariant in record["invariants"]), record["invariants"])
+
     def test_fines_leave_an_elutriator(self):
         """A column half as high: a free fine bead rises at 60 - 23 mm/s, so that those from the upper half of the bed, 10 mm high, have
         risen 11 mm by 0.3 s. The coarse beads fall at 146 mm/s."""

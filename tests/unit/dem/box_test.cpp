@@ -130,7 +130,7 @@ TEST(Box, ACylinderHasOneCurvatureOnEitherSideAndARingNone) {
 
 TEST(Box, RoundWallsThatJoinPushOnce) {
   Box box = tall_box();
-  box.opening = Opening{10, 10, 3, true};
+  box.openings = {{1, 0, 0, {10, 0, 10}, {3, 0, 0}, true}};
   box.add_cone({3, 0}, {6, 4});     // from the rim of the opening
   box.add_cone({6, 12}, {6, 4});    // a cylinder above it
   box.add_cone({10, 20}, {6, 12});  // and a cone to the side of the box
