@@ -218,14 +218,12 @@ Table discharge_table() {
       {
           key(&Discharge::at, "at", Mark::required,
               help("bottom or side through which fluid and solids leave together, as they are in the cells next to it; "
-                   "in "
-                   "polybed dem particles leave through a hole there with a sharp rim, also without a fluid")),
+                   "in polybed dem particles leave through a hole there with a sharp rim, also without a fluid")),
           key(&Discharge::superficial_velocity, "superficial_velocity", dimension::velocity, range(0, 1e3),
               Mark::required,
               help("volume of the mixture per area of the discharge and time, out of the column; a velocity or a table "
                    "as of the inlet. Where more enters, the rest leaves at the top, also with inlet.at = \"top\". "
-                   "Without a "
-                   "fluid it has no effect")),
+                   "Without a fluid it has no effect")),
           key(&Discharge::from, "from", dimension::length, range(0, 1e3),
               help("low corner of the part of the bottom or side, as of a jet; default: all of it")),
           key(&Discharge::to, "to", dimension::length, range(0, 1e3), help("high corner")),
