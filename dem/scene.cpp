@@ -31,12 +31,12 @@ double most_walls(const core::Scene& scene) { return scene.walls.empty() && !sce
 /// Half the height of the side of a round box over the box's: particles fly beyond an open top.
 constexpr double beyond_the_top = 100;
 
-/// Where a discharge ends with its face there is no rim.
+/// Where a discharge ends with its face there is no rim. Rules ask for the box of cases whose corners are refused, too.
 Opening hole_of(const core::Discharge& discharge, const Box& box, int dimensions) {
   const int axis = axis_of(discharge.at), side = side_of(discharge.at);
   constexpr double endless = std::numeric_limits<double>::infinity();
   Opening hole{axis, side, side * box.size[std::size_t(axis)], {}, {endless, endless, endless}};
-  for (std::size_t n = 0; n < discharge.from.size(); ++n) {
+  for (std::size_t n = 0; n < std::min(discharge.from.size(), discharge.to.size()); ++n) {
     const auto k = std::size_t(axis_along(discharge.at, dimensions, n));
     const double far = beyond_the_top * box.size[k];
     const double low = discharge.from[n] > 0 ? discharge.from[n] : -far,

@@ -279,7 +279,7 @@ class Screen(Scratch):
             if row["entry"] == "expansion-in-water" and row["model"] == "tfm":
                 law = row["run"].rpartition("-")[0]
                 worst[law] = max(worst.get(law, 0), row["result"][0] - row["measured"][0])
-        over = {(row["entry"], row["quantity"]): row["result"][0] / row["measured"][0] - 1 for row in rows}
+        over = {(row["entry"], row["quantity"]): row["result"][0] / row["measured"][0] - 1 for row in rows if row["result"]}
         inversion = next(row for row in rows if row["entry"] == "matsuura-akehata")
         self.assertEqual(f"{worst['wen_yu']:.2f}", f"{worst['cello']:.2f}")
         sentences = {TEMPLATES / "liquid-bed/case.toml": f"voidage at most {worst['di_felice']:.2f} too high by di_felice, {worst['cello']:.2f} by wen_yu and cello",

@@ -147,8 +147,11 @@ def scene(rng, keys, roles):
     if not closed and rng.random() < 0.12:
         text += f"[[jet]]\nfrom = {corners[0]}\nto = {corners[1]}\nsuperficial_velocity = {velocity * rng.uniform(1, 20):.4g}\n"
     if (not closed or fluid == "none") and rng.random() < 0.12:
-        text += (f'[[feed]]\nspecies = "s{rng.randrange(count)}"\nat = "{rng.choice(["bottom", "top"])}"\n'
+        text += (f'[[feed]]\nspecies = "s{rng.randrange(count)}"\nat = "{rng.choice(["bottom", "top", "left", "right"])}"\n'
                  f"superficial_velocity = {velocity / 20:.4g}\nvelocity = {velocity:.4g}\nfrom = {corners[0]}\nto = {corners[1]}\n")
+    if rng.random() < 0.12:
+        text += (f'[[discharge]]\nat = "{rng.choice(["bottom", "left", "right"])}"\nsuperficial_velocity = {velocity:.4g}\n'
+                 f"from = {corners[0]}\nto = {corners[1]}\n")
     if fluid == "none" and rng.random() < 0.2:
         text += f"[[wall]]\nfrom = [0, {0.3 * height:.5g}]\nto = [{0.35 * width:.5g}, {0.1 * height:.5g}]\n"
     if rng.random() < 0.2:  # bed.start = "layered" by parts
