@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Spheres that settle freely in resolved flow: free_spheres.py PROGRAM FOLDER [TABLE] [--voidage ...] [--boxes N]
+"""Spheres that settle freely in resolved flow: free_spheres.py PROGRAM FOLDER [TABLE] [--voidage ...] [--boxes N] [--spheres N] [--until S]
 
 one_size: hindered settling of beads of one size beside Richardson and Zaki's law (1954), resolved settling of Yin and Koch (2007) and a law of
 held spheres. box: more and more beads in a box, with the limit of a large one. grid, viscous: finer cells, a more viscous liquid. relative: forces
@@ -10,6 +10,7 @@ on, more --boxes add to them.
 """
 import argparse
 import csv
+import inspect
 import json
 import subprocess
 from pathlib import Path
@@ -196,28 +197,28 @@ def two_line(what, u, seconds):
           f"{ratio * np.hypot(fine_se / fine, coarse_se / coarse):.2f} | {seconds:.0f} |", flush=True)
 
 
-def system_b(program, folder, voidages=(0.87, 0.8), boxes=4):
+def system_b(program, folder, voidages=(0.87, 0.8), boxes=4, spheres=44, until=0.6):
     case = ROOT / "cases/matsuura-akehata/case.toml"
     print("| voidage | spheres | boxes | cells | until, s | fine, mm/s | coarse, mm/s | coarse over fine | s |\n" + "| --- " * 9 + "|")
 
-    def free(voidage, until=0.6, cells=8, packings=boxes):
-        [row] = rows(program, case, folder / f"{voidage}-{until}-{cells}", "motion=free", f'until="{until} s"', f"voidage=[{voidage}]",
-                     f"cells_per_diameter={cells}", "grids=1", f"packings={packings}", "spheres=44", effects=FILM)
-        two_line(f"{voidage} | free | {packings} | {cells} | {until}", slips(row), row["seconds"])
+    def free(voidage, until, cells=8, packings=boxes):
+        [row] = rows(program, case, folder / f"{voidage}-{spheres}-{until}-{cells}", "motion=free", f'until="{until} s"', f"voidage=[{voidage}]",
+                     f"cells_per_diameter={cells}", "grids=1", f"packings={packings}", f"spheres={spheres}", effects=FILM)
+        two_line(f"{voidage} | {spheres} free | {packings} | {cells} | {until}", slips(row), row["seconds"])
 
     def held(voidage):
-        found = rows(program, case, folder / f"{voidage}-held", f"reynolds={list(HELD_RE.get(voidage, (15, 30)))}", f"voidage=[{voidage}]",
-                     "cells_per_diameter=8", "grids=1", f"packings={boxes}", "spheres=44")
+        found = rows(program, case, folder / f"{voidage}-{spheres}-held", f"reynolds={list(HELD_RE.get(voidage, (15, 30)))}", f"voidage=[{voidage}]",
+                     "cells_per_diameter=8", "grids=1", f"packings={boxes}", f"spheres={spheres}")
         sauter = 1 / sum(found[0][f"x{j}"] / found[0][f"D{j}"] for j in (1, 2))
         reynolds = np.array([row["Re"] for row in found])
         u = [with_error(reynolds, *(np.array([row[f"n_{j}{end}"] for row in found]) for end in ("", "_se")), j - 1, sauter) for j in (1, 2)]
-        two_line(f"{voidage} | held | {boxes} | 8 | ", u, found[0]["seconds"])
+        two_line(f"{voidage} | {spheres} held | {boxes} | 8 | ", u, found[0]["seconds"])
 
     for voidage in voidages:
-        free(voidage)
+        free(voidage, until)
         held(voidage)
-    free(voidages[0], until=0.3)
-    free(voidages[0], until=0.3, cells=12, packings=1)
+    free(voidages[0], 0.5 * until)
+    free(voidages[0], 0.5 * until, cells=12, packings=1)
 
 
 def mixtures(program, folder, voidages=(0.9, 0.8, 0.65), boxes=4):
@@ -247,11 +248,15 @@ def main():
     parser.add_argument("what", nargs="?", choices=TABLES)
     parser.add_argument("--voidage", type=float, nargs="+", help="of one_size, system_b and mixtures")
     parser.add_argument("--boxes", type=int, help="of each of their rows")
+    parser.add_argument("--spheres", type=int, help="in a box of system_b")
+    parser.add_argument("--until", type=float, help="simulated time of system_b, s")
     given = parser.parse_args()
-    asked = {name: value for name, value in (("voidages", given.voidage), ("boxes", given.boxes)) if value}
+    asked = {"voidages": given.voidage, "boxes": given.boxes, "spheres": given.spheres, "until": given.until}
+    asked = {name: value for name, value in asked.items() if value}
     for name, table in TABLES.items():
         if given.what in (None, name):
-            table(given.program, given.folder / name, **(asked if "boxes" in table.__code__.co_varnames else {}))
+            takes = inspect.signature(table).parameters
+            table(given.program, given.folder / name, **{key: value for key, value in asked.items() if key in takes})
 
 
 if __name__ == "__main__":
