@@ -275,18 +275,22 @@ void CaseRun::finish(const std::string& state) {
   ended_ = true;
   const std::string text = record(state);
   if (!first_) return;
-  std::string message;
-  const bool drawn = options_.picture && draw_picture(directory_, message);
   if (!options_.quiet) {
     if (options_.details) {
       print_timers(timers_);
       print_summary();
     }
-    if (drawn) core::print(stderr, "{}\n", message);
-    if (options_.picture && !drawn) core::print(stderr, "no picture: {}\n", message);
     print_end(text);
   }
   if (options_.json) core::print("{}\n", text);
+  if (options_.picture) draw();
+}
+
+/// Last, for it takes a second or two.
+void CaseRun::draw() {
+  std::string message;
+  const bool drawn = draw_picture(directory_, message);
+  if (!options_.quiet) core::print(stderr, "{}{}\n", drawn ? "" : "no picture: ", message);
 }
 
 /// Warnings, then the card.

@@ -138,6 +138,7 @@ class CaseRun {
   void record_if_possible(const std::string& state);
   void finish(const std::string& state);
   void print_end(const std::string& record);
+  void draw();
   /// The command that resumes this run. \param more  settings beside those that it has
   [[nodiscard]] std::string command_to_resume(const std::vector<std::string>& more) const;
   [[noreturn]] void fail(const core::NumericsError& error);

@@ -107,12 +107,14 @@ class DemRun final : public CaseRun {
     return {{"history", *scene_.output.history_every,
              [&](double t) {
                observers_->write_history(t);
+               history_at_ = t;
                judge(observers_->invariants().worst());
              }},
             {"particles", *scene_.output.every, [&](double t) {
                const auto scope = timers_.scope("output");
                observers_->write_particles(t);
                emptied_ = model_.outflow() != nullptr && model_.feeding() == nullptr && model_.particle_count() == 0;
+               if (emptied_ && history_at_ != t) observers_->write_history(t);  // the last row
              }}};
   }
 
@@ -297,6 +299,7 @@ class DemRun final : public CaseRun {
   dem::Work work_, before_;           ///< of the last record; what the processes before this one have counted
   std::optional<FluidReport> fluid_;  ///< of the last record; absent without a fluid
   double cpu_ = 0;
+  double history_at_ = -1;     ///< time of the last row, s
   bool emptied_ = false;       ///< all particles have left, and none is fed
   double settling_shown_ = 0;  ///< when, s
 };

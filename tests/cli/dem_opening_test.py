@@ -98,6 +98,9 @@ class Opening(Scratch):
         with h5py.File(run / "particles.h5") as file:
             self.assertEqual(list(file["particles"][()]), [1, 1, 0])  # 2 mm down after 20.2 ms; then nothing is left to run
         self.assertEqual((record["state"], record["time_s"]), ("done", rows["time_s"][-1]))
+        odd = self.folder / "odd"
+        self.ends(DONE, "dem", case, "--quiet", "-o", odd, "--set", "output.history_every='7 ms'")
+        self.assertEqual([history(odd)[name][-1] for name in ("time_s", "mass_coarse_kg")], [record["time_s"], 0])
         ended = f"ended after {record['time_s']:.4g} s: all particles have left"
         self.assertIn(ended, record["warnings"])
         self.ends(DONE, "plot", run, "--what", "particles,history")
