@@ -129,20 +129,23 @@ void Flow::finish_compression(double dt, FlowStep& step) {
   set_density();
 }
 
-/// What flows through an end or a side where that is given, over the voidage of the cells next to it.
+/// What flows through an end or a side where that is given. The fluid's velocity is its own part of it over the voidage
+/// of the cells next to it.
 void Flow::set_inlet(double t) {
   if (boundaries_.closed()) return;
   inlet_.set_velocity(t, fluid_.flux);
+  inlet_.set_velocity(t, own_flux_);
+  inlet_.take_solids_out(t, fluid_.voidage, own_flux_);
   for (const int side : {0, 1}) {
     if (side == 1 && boundaries_.has_outlet()) continue;
     const auto inward = std::size_t(side) * std::size_t(grid_.stride(1));
     for_each_boundary_row(grid_, 1, side, [&](Index begin, Index end) {
       for (auto c = std::size_t(begin); c < std::size_t(end); ++c)
-        fluid_.velocity[1][c] = fluid_.flux[1][c] / fluid_.voidage[c - inward];
+        fluid_.velocity[1][c] = own_flux_[1][c] / fluid_.voidage[c - inward];
     });
   }
   inlet_.for_each_side_face([&](std::size_t a, Index face, Index inside) {
-    fluid_.velocity[a][std::size_t(face)] = fluid_.flux[a][std::size_t(face)] / fluid_.voidage[std::size_t(inside)];
+    fluid_.velocity[a][std::size_t(face)] = own_flux_[a][std::size_t(face)] / fluid_.voidage[std::size_t(inside)];
   });
   core::hold_closed(grid_, fluid_.velocity);
 }
@@ -161,12 +164,11 @@ void Flow::find_acceleration(double dt, const ParticlePhase& particles) {
   if (compressible_) compressible_->add_gravity(fluid_, acceleration_);
 }
 
-/// eps U, and what flows in.
+/// eps U. set_inlet has set it where it is given.
 void Flow::find_own_flux(const ParticlePhase& particles) {
   const auto dimensions = std::size_t(grid_.dimensions);
   std::array<Ghosts, 3> ghosts{};
   for (std::size_t a = 0; a < dimensions; ++a) {
-    own_flux_[a] = fluid_.flux[a];
     core::for_each_row(grid_, boundaries_.moving_faces(int(a), true), [&](Index begin, Index end) {
       for (auto c = std::size_t(begin); c < std::size_t(end); ++c)
         own_flux_[a][c] = particles.voidage_on[a][c] * fluid_.velocity[a][c];

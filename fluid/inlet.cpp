@@ -113,29 +113,30 @@ Inlet::Inlet(const core::Grid& grid, const core::Scene& scene) : grid_(grid) {
   if (scene.inlet.at == core::ColumnEnd::top)
     above_ = core::open_faces_below(grid, 0) / core::open_faces_below(grid, grid.column_cells(1));
   const std::size_t faces = std::size_t(grid.cells[0]) * std::size_t(grid.cells[2]);
-  parts_.push_back({Ramp(scene.inlet.superficial_velocity), std::vector<double>(faces, 1.0), 1});
-  const auto add = [&](const auto& given, double inward) {
-    if (is_side(given.at)) return add_port(given, inward);
-    Part part{Ramp(given.superficial_velocity, inward), face_shares(grid, given.from, given.to), 0};
+  parts_.push_back({Ramp(scene.inlet.superficial_velocity), std::vector<double>(faces, 1.0), 1, Carries::fluid});
+  const auto add = [&](const auto& given, double inward, Carries carries) {
+    if (is_side(given.at)) return add_port(given, inward, carries);
+    Part part{Ramp(given.superficial_velocity, inward), face_shares(grid, given.from, given.to), 0, carries};
     for (std::size_t f = 0; f < faces; ++f) parts_.front().share[f] -= part.share[f];
     parts_.push_back(std::move(part));
   };
-  for (const core::Jet& jet : scene.jets) add(jet, 1);
+  for (const core::Jet& jet : scene.jets) add(jet, 1, Carries::fluid);
   for (const core::Feed& feed : scene.feeds) {
-    if (is_side(feed.at)) add_port(feed, 1);
+    if (is_side(feed.at)) add_port(feed, 1, Carries::solids);
     if (feed.at == core::ColumnFace::bottom)
-      parts_.push_back({Ramp(feed.superficial_velocity), face_shares(grid, feed.from, feed.to), 0});
+      parts_.push_back({Ramp(feed.superficial_velocity), face_shares(grid, feed.from, feed.to), 0, Carries::solids});
   }
-  for (const core::Discharge& discharge : scene.discharges) add(discharge, -1);
+  for (const core::Discharge& discharge : scene.discharges)
+    add(discharge, -1, scene.bed.held ? Carries::fluid : Carries::both);
   for (Part& part : parts_) part.mean_share = mean_over_bottom(part.share);
 }
 
 /// \param inward  1 of what enters, -1 of what leaves
 template <class Side>
-void Inlet::add_port(const Side& part, double inward) {
+void Inlet::add_port(const Side& part, double inward, Carries carries) {
   const int axis = axis_of(part.at);
   const double along = side_of(part.at) == 0 ? 1 : -1;
-  Port port{part.at, Ramp(part.superficial_velocity, inward * along), 0, {}, {}};
+  Port port{part.at, Ramp(part.superficial_velocity, inward * along), 0, carries, {}, {}};
   const std::vector<double> share = face_shares(grid_, part.from, part.to, part.at);
   std::size_t f = 0;
   for_each_boundary_row(grid_, axis, side_of(part.at), [&](Index begin, Index end) {
@@ -186,6 +187,25 @@ void Inlet::set(core::FaceField& faces, Value&& value) const {
 
 void Inlet::set_velocity(double t, core::FaceField& flux) const {
   set(flux, [t](const Ramp& ramp) { return ramp.velocity(t); });
+}
+
+void Inlet::take_solids_out(double t, const core::Field& voidage, core::FaceField& flux) const {
+  const auto take = [&](const auto& part, std::size_t axis, double share, Index face, Index inside) {
+    if (part.carries == Carries::fluid) return;
+    const double solids = part.carries == Carries::solids ? 1 : 1 - voidage[std::size_t(inside)];
+    flux[axis][std::size_t(face)] -= share * part.ramp.velocity(t) * solids;
+  };
+  std::size_t face = 0;
+  for_each_boundary_row(grid_, 1, 0, [&](Index begin, Index end) {
+    for (Index c = begin; c < end; ++c, ++face)
+      for (const Part& part : parts_) take(part, 1, part.share[face], c, c);
+  });
+  for (const Port& port : ports_) {
+    const auto axis = std::size_t(axis_of(port.at));
+    const Index inward = side_of(port.at) == 0 ? 0 : -grid_.stride(int(axis));
+    for (std::size_t n = 0; n < port.face.size(); ++n)
+      take(port, axis, port.share[n], port.face[n], port.face[n] + inward);
+  }
 }
 
 void Inlet::set_rate(double t, core::FaceField& rate) const {

@@ -51,6 +51,8 @@ class Inlet {
 
   /// Sets the flux at time t, m/s, on the faces where it is given.
   void set_velocity(double t, core::FaceField& flux) const;
+  /// Leaves of the flux at time t, m/s, what the fluid has of it. \param voidage  in the cells, where particles are
+  void take_solids_out(double t, const core::Field& voidage, core::FaceField& flux) const;
   /// Sets its rate, m/s2, there.
   void set_rate(double t, core::FaceField& rate) const;
   /// Goes on beyond the sides with a velocity as it is where something flows through them.
@@ -74,23 +76,27 @@ class Inlet {
   [[nodiscard]] std::vector<double> breakpoints() const;
 
  private:
+  /// What a flux consists of. In a discharge fluid and solids move alike.
+  enum class Carries { fluid, solids, both };
   /// One velocity, the share of each of the block's bottom faces, row by row, that has it, and that of the whole
   /// bottom.
   struct Part {
     Ramp ramp;
     std::vector<double> share;
     double mean_share;
+    Carries carries;
   };
   /// A part of a side, with the block's faces that it covers.
   struct Port {
     core::ColumnFace at;
     Ramp ramp;          ///< along the axis
     double mean_share;  ///< what flows in through all of it, over the bottom's area and its ramp's velocity
+    Carries carries;
     std::vector<core::Index> face;
     std::vector<double> share;  ///< of each face
   };
   template <class Side>
-  void add_port(const Side& part, double inward);
+  void add_port(const Side& part, double inward, Carries carries);
   [[nodiscard]] double mean_over_bottom(const std::vector<double>& share) const;
   template <class Value>
   void set(core::FaceField& faces, Value&& value) const;

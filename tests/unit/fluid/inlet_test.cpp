@@ -64,6 +64,35 @@ TEST(Inlet, AJetTakesItsAreaOnAnyGrid) {
   }
 }
 
+// Voidage 0.6. Of a feed the fluid has nothing, of a discharge 0.6 of the flux, of the rest all.
+TEST(Inlet, KnowsWhatTheFluidHasOfAFlux) {
+  core::Scene scene;
+  scene.inlet.superficial_velocity = {{0.0, 0.01}};
+  scene.feeds.push_back({"a", core::ColumnFace::bottom, {{0.0, 0.002}}, 0.1, {0.0}, {0.01}});
+  scene.feeds.push_back({"a", core::ColumnFace::right, {{0.0, 0.003}}, 0.1, {0.0}, {0.01}});
+  scene.discharges.push_back({core::ColumnFace::bottom, {0.02}, {0.03}, {{0.0, 0.05}}});
+  scene.discharges.push_back({core::ColumnFace::left, {0.01}, {0.02}, {{0.0, 0.05}}});
+  const core::Grid grid = bottom(4, 1);
+  const Inlet inlet(grid, scene);
+  core::FaceField flux = core::make_face_field(grid);
+  inlet.set_velocity(0, flux);
+  core::FaceField fluid = flux;
+  core::Field voidage = core::make_field(grid);
+  std::fill(voidage.begin(), voidage.end(), 0.6);
+  inlet.take_solids_out(0, voidage, fluid);
+  const auto at = [&](const core::FaceField& faces, std::size_t axis, int i, int j) {
+    return faces[axis][std::size_t(grid.index(i, j))];
+  };
+  EXPECT_DOUBLE_EQ(at(flux, 1, 0, 0), 0.012);
+  EXPECT_DOUBLE_EQ(at(fluid, 1, 0, 0), 0.01);
+  EXPECT_DOUBLE_EQ(at(fluid, 1, 1, 0), 0.01);
+  EXPECT_DOUBLE_EQ(at(flux, 1, 2, 0), -0.05);
+  EXPECT_DOUBLE_EQ(at(fluid, 1, 2, 0), -0.03);
+  EXPECT_DOUBLE_EQ(at(flux, 0, 4, 0), -0.003);
+  EXPECT_EQ(at(fluid, 0, 4, 0), 0);
+  EXPECT_DOUBLE_EQ(at(fluid, 0, 0, 1), -0.03);
+}
+
 TEST(Inlet, FacesHaveTheirShare) {
   const core::Grid grid = bottom(4, 1);  // faces of 10 mm; the jet covers 7 mm of the second and 6 mm of the third
   const Inlet inlet(grid, with_jet(2));
