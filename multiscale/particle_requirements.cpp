@@ -181,8 +181,9 @@ ParticleRequirements particle_requirements_of(const core::Scene& scene, const Pa
   need.overlap = dem::overlap_forecast(scene, materials, laws, speeds.impact);
   need.program = core::process_memory().now + bytes_of_output;
   need.fed = fed_in(scene, materials, box);
-  // What runs out of an opening meanwhile is not known: as much as is fed.
-  const bool leave = scene.dem.opening || !scene.discharges.empty();
+  // What runs out of a hole in the bottom meanwhile is not known: as much as is fed. One in a side can lie above the
+  // bed.
+  const bool leave = std::any_of(box.openings.begin(), box.openings.end(), [](const auto& o) { return o.is_bottom(); });
   const double start_count = double(need.count()), more = leave ? 0 : double(sum_of(need.fed));
   need.particles = bytes_per_particle * (start_count + more);
   need.steps = std::ceil(scene.run.until / need.limits.dt);

@@ -65,6 +65,13 @@ class Feed(Scratch):
         self.assertEqual(need["fed"], {"fine": int(called_for(0.06)), "coarse": 0})
         self.assertIn(f"{int(called_for(0.06))} more are fed", self.ends(DONE, "check", case, "--details").stdout)
 
+    def test_check_counts_what_is_fed_where_only_a_side_lets_out(self):
+        for case, kept in ((program.ROOT / "cases/weir/case.toml", 0.5), (program.ROOT / "cases/fed-hopper/case.toml", 0)):
+            need = strict_json(self.ends(DONE, "check", case, "--json").stdout)
+            need = need.get("dem", need)
+            count = sum(need["particles"].values()) + kept * sum(need["fed"].values())
+            self.assertAlmostEqual(need["time"]["particle_steps"] / (need["time"]["steps"] * count), 1, places=9)
+
     def test_in_a_fluid(self):
         record = strict_json(self.dem("wet", text=WET).stdout)
         _, entered = self.counts(self.folder / "wet", record)
