@@ -113,11 +113,17 @@ std::optional<Vector> Opening::from_rim(const Vector& centre) const {
   return from;
 }
 
+Vector Box::beside(const Opening& opening, Vector centre) const {
+  for (std::size_t k = 0; k < 3; ++k)
+    if (periodic[k]) centre[k] -= size[k] * std::round((centre[k] - opening.middle[k]) / size[k]);
+  return centre;
+}
+
 std::optional<Vector> Box::from_opened(int axis, int side, const Vector& centre) const {
   const Opening* face = nullptr;
   for (const Opening& opening : openings) {
     if (opening.axis != axis || opening.side != side) continue;
-    if (const auto from = opening.from_rim(centre)) return from;
+    if (const auto from = opening.from_rim(beside(opening, centre))) return from;
     face = &opening;
   }
   if (face == nullptr) return {};
@@ -126,9 +132,25 @@ std::optional<Vector> Box::from_opened(int axis, int side, const Vector& centre)
   return straight;
 }
 
+bool Box::rim_is_edge(int axis, const Vector& centre, const Vector& from_rim) const {
+  Vector point;
+  bool straight = true;
+  for (std::size_t k = 0; k < 3; ++k) {
+    point[k] = centre[k] - from_rim[k];
+    straight = straight && (k == std::size_t(axis) || from_rim[k] == 0);
+  }
+  const double near = 1e-9 * size[1];
+  return !straight && std::any_of(plates.begin(), plates.end(), [&](const Plate& plate) {
+    const InPlane away = plate.to(InPlane{point[0], point[1]});
+    return !plate.round && std::hypot(away[0], away[1]) < near &&
+           plate.nearest({point[0], point[1]}) != Plate::Part::face;
+  });
+}
+
 bool Box::in_line(const Opening& face, const Vector& centre) const {
-  return std::any_of(openings.begin(), openings.end(),
-                     [&](const Opening& opening) { return opening.is_beside(face) && opening.from_rim(centre); });
+  return std::any_of(openings.begin(), openings.end(), [&](const Opening& opening) {
+    return opening.is_beside(face) && opening.from_rim(beside(opening, centre));
+  });
 }
 
 /// It reaches beyond the corners, so that only the rim of the opening is an edge that particles meet.

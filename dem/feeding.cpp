@@ -6,11 +6,13 @@
 #include <cmath>
 #include <numeric>
 #include <optional>
+#include <utility>
 
 #include "closures/sphere.hpp"
 #include "core/numerics/random.hpp"
 #include "core/output/checkpoint.hpp"
 #include "dem/model.hpp"
+#include "measures/particle_profile.hpp"
 
 namespace polybed::dem {
 
@@ -132,13 +134,18 @@ std::int64_t Feeding::choose(const Model& model, double t) {
     if (!feed.due(t)) continue;
     feed.tried_at = t;
     std::optional<FeedStrip>& strip = strips[std::size_t(feed.at)];
-    if (!strip) strip.emplace(model, feed.at);
+    if (!strip) {
+      strip.emplace(model, feed.at);
+      for (const Particle& p : entering_) strip->add(p.place);
+    }
     const Species& s = materials_.species()[std::size_t(feed.species)];
     Place place;
     for (const std::int64_t most = feed.called_for(t); feed.entered < most && find_place(n, *strip, place);) {
-      strip->add(place);
+      for (std::optional<FeedStrip>& other : strips)  // faces meet in corners
+        if (other) other->add(place);
       Vector v{};
       v[std::size_t(axis_of(feed.at))] = side_of(feed.at) == 1 ? -feed.velocity : feed.velocity;
+      if (model.coupling() != nullptr) coming_.push_back({t, s.radius, feed.velocity});
       entering_.push_back({place, {v, 1 / s.mass, {0, 0, 0}, 1 / s.inertia}, {}, next_id_++, feed.species});
       ++feed.entered;
       ++number[std::size_t(feed.species)];
@@ -152,6 +159,25 @@ std::int64_t Feeding::choose(const Model& model, double t) {
   }
   steps += model.steps() * std::int64_t(entering_.size());
   return std::int64_t(entering_.size());
+}
+
+double Feeding::Coming::share(double t) const {
+  return measures::sphere_volume_below(radius, radius - velocity * (t - since), 0) / closures::sphere_volume(radius);
+}
+
+Arrivals Feeding::arrivals(double t) {
+  const auto late = std::find_if(coming_.begin(), coming_.end(),
+                                 [t](const Coming& one) { return one.velocity * (t - one.since) < 2 * one.radius; });
+  coming_.erase(coming_.begin(), late);
+  seen_at_ = t;
+  return std::as_const(*this).arrivals();
+}
+
+Arrivals Feeding::arrivals() const {
+  Arrivals now;
+  if (!coming_.empty()) now.first = next_id_ - std::int64_t(coming_.size());
+  for (const Coming& one : coming_) now.share.push_back(one.share(seen_at_));
+  return now;
 }
 
 void Feeding::enter(Particles& particles, const Decomposition* decomposition, int rank) {
@@ -168,6 +194,10 @@ void Feeding::write(core::Checkpoint& checkpoint, const Particles&, const core::
     checkpoint.arrays["feed_tries"].push_back(double(feed.tries));
     checkpoint.arrays["feed_tried_at"].push_back(feed.tried_at);
   }
+  std::vector<double>& coming = checkpoint.arrays["feed_coming"];
+  coming.clear();
+  for (const Coming& one : coming_) coming.insert(coming.end(), {one.since, one.radius, one.velocity});
+  checkpoint.numbers["feed_seen_at"] = seen_at_;
   checkpoint.integers["feed_next_id"] = next_id_;
   checkpoint.integers["feed_steps"] = steps;
   checkpoint.integers["feed_energy"] = energy.whole();
@@ -179,8 +209,9 @@ void Feeding::read(const Restored& from) {
   const std::size_t count = feeds_.size();
   std::int64_t free_id = 0;
   for (const Particle& p : from.all) free_id = std::max(free_id, p.id + 1);
-  std::vector<std::int64_t> whole(2 * count + 4, 0);
-  std::vector<double> tried(count, never);
+  std::vector<std::int64_t> whole(2 * count + 5, 0);
+  std::vector<double> tried(count, never), coming;
+  double seen_at = 0;
   core::on_first(from.ranks, [&] {
     const core::Checkpoint& checkpoint = from.checkpoint;
     whole.end()[-4] = free_id;
@@ -197,15 +228,26 @@ void Feeding::read(const Restored& from) {
     if (checkpoint.array("feed_tried_at").size() != count)
       core::refuse_checkpoint("feed_tried_at is not a time for each [[feed]]");
     tried = checkpoint.array("feed_tried_at");
+    coming = checkpoint.array("feed_coming");
+    seen_at = checkpoint.number("feed_seen_at");
+    if (coming.size() % 3 != 0 || std::any_of(coming.begin(), coming.end(), [](double x) { return !(x >= 0); }))
+      core::refuse_checkpoint("feed_coming is not a time, a radius and a velocity of each");
     whole.end()[-4] = checkpoint.count("feed_next_id");
     if (whole.end()[-4] < free_id) core::refuse_checkpoint("feed_next_id is the number of a particle that is there");
     whole.end()[-3] = checkpoint.count("feed_steps");
     whole.end()[-2] = checkpoint.integer("feed_energy");
     whole.end()[-1] = checkpoint.integer("feed_energy_part");
+    whole.end()[-5] = std::int64_t(coming.size());
   });
   if (!core::is_first(from.ranks)) std::fill(whole.begin(), whole.end(), 0);
   core::add_over_ranks(from.ranks, whole);
   core::take_from_first(from.ranks, tried);
+  core::take_from_first(from.ranks, {&seen_at, 1});
+  coming.resize(std::size_t(whole.end()[-5]));
+  core::take_from_first(from.ranks, coming);
+  coming_.clear();
+  for (std::size_t n = 0; n < coming.size(); n += 3) coming_.push_back({coming[n], coming[n + 1], coming[n + 2]});
+  seen_at_ = seen_at;
   std::fill(number.begin(), number.end(), 0);
   for (std::size_t n = 0; n < count; ++n) {
     feeds_[n].entered = whole[n];

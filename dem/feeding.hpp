@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/case/scene.hpp"
+#include "dem/arrivals.hpp"
 #include "dem/box.hpp"
 #include "dem/contacts/materials.hpp"
 #include "dem/energy_sum.hpp"
@@ -20,7 +21,8 @@ class Decomposition;
 
 /// By a time t a feed calls for as many particles as the volume that it has let in fills, rounded down: what is left
 /// over counts on. A particle enters in the step in which it is called for, just inside the end, at the feed's velocity
-/// and at a random place where it overlaps nothing. One that finds no place waits, and is tried again later. Feeds that
+/// and at a random place where it overlaps nothing; for a fluid its volume grows as if it came through the face at that
+/// velocity. One that finds no place waits, and is tried again later. Feeds that
 /// call for particles more often than the list of pairs has to be made for their speed let them in several at a time.
 ///
 /// The same on every rank, and on any number of ranks to the bit: places come from bed.seed, the feed and a number.
@@ -49,6 +51,10 @@ class Feeding final : public KeptPart {
   [[nodiscard]] bool due(double t) const;
   /// Decides who enters at a time, counts them, and returns how many there are. Collective.
   std::int64_t choose(const Model& model, double t);
+  /// At a time that is not before that of the last call.
+  [[nodiscard]] Arrivals arrivals(double t);
+  /// At the time of the last call.
+  [[nodiscard]] Arrivals arrivals() const;
   /// Adds the particles that enter in this rank's part of the box. \param decomposition  null: the rank has all of it
   void enter(Particles& particles, const Decomposition* decomposition, int rank);
 
@@ -71,6 +77,12 @@ class Feeding final : public KeptPart {
     [[nodiscard]] std::int64_t called_for(double t) const;
     [[nodiscard]] bool due(double t) const;
   };
+  /// A particle that comes in.
+  struct Coming {
+    double since, radius, velocity;  ///< s, m, m/s
+
+    [[nodiscard]] double share(double t) const;
+  };
   static constexpr double never = -1e30;
   [[nodiscard]] bool find_place(std::size_t n, const FeedStrip& strip, Place& place);
 
@@ -79,6 +91,8 @@ class Feeding final : public KeptPart {
   std::uint64_t seed_;
   std::int64_t next_id_;
   std::vector<Particle> entering_;
+  std::vector<Coming> coming_;  ///< into a fluid, the last that have entered, in the order of their numbers
+  double seen_at_ = 0;          ///< when arrivals() has last been asked, s
 };
 
 }  // namespace polybed::dem

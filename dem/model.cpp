@@ -155,7 +155,10 @@ void Model::step(double stop) {
     move(limits_.dt);
   else if (coupling_)
     coupling_->hold(particles_);
-  if (coupling_ && coupling_->due(steps_)) coupling_->advance(particles_, clock());
+  if (coupling_ && coupling_->due(steps_)) {
+    if (feeding_) coupling_->see(feeding_->arrivals(clock()));
+    coupling_->advance(particles_, clock());
+  }
   reported_ = std::abs(clock() - stop) < 0.5 * limits_.dt ? stop : clock();
   look_ahead();
   if (ahead_ == Ahead::trouble) stop_in_trouble();
@@ -170,7 +173,10 @@ void Model::let_in() {
   const bool fast = ahead_ == Ahead::fast;
   count_ += entered;
   rebuild();
-  if (coupling_) coupling_->take_in(particles_, feeding_->next_id() - entered);
+  if (coupling_) {
+    coupling_->see(feeding_->arrivals(clock()));
+    coupling_->take_in(particles_, feeding_->next_id() - entered);
+  }
   look_ahead();
   if (fast) ahead_ = Ahead::fast;
 }

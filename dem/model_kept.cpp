@@ -77,6 +77,7 @@ void Model::restore(const core::Checkpoint& checkpoint, bool same_run) {
   }
   place(state.particles, work_of(state, work_of_particle()));
   for (KeptPart* part : kept_) part->read({checkpoint, ranks_.get(), particles_, state.particles, same_run});
+  if (coupling_ && feeding_) coupling_->see(feeding_->arrivals());
   list_pairs({state.contacts, pairs_.memory_size});
 }
 

@@ -6,6 +6,8 @@
 
 #include "core/case/resolve.hpp"
 #include "dem/effects/maker.hpp"
+#include "dem/holes.hpp"
+#include "dem/scene.hpp"
 #include "relevance/effect_rules.hpp"
 
 namespace polybed::dem {
@@ -18,14 +20,25 @@ bool discharges_below(const core::Scene& scene) {
 }
 
 core::Broken blocked_discharges(const core::Scene& scene) {
+  core::Broken broken;
   const double largest = core::largest_diameter(scene);
-  for (std::size_t n = 0; n < scene.discharges.size(); ++n) {
+  for (std::size_t n = 0; !scene.bed.held && n < scene.discharges.size(); ++n) {
     const core::Discharge& hole = scene.discharges[n];
     for (std::size_t d = 0; d < std::min(hole.from.size(), hole.to.size()); ++d)
-      if (hole.to[d] - hole.from[d] < largest * (1 - 1e-12))
-        return core::Broken({std::to_string(n + 1), fmt::format("{:.4g}", largest)});
+      if (hole.to[d] - hole.from[d] < largest * (1 - 1e-12)) {
+        broken.add({std::to_string(n + 1), fmt::format("{:.4g}", largest)}, n);
+        break;
+      }
   }
-  return {};
+  return broken;
+}
+
+core::Broken discharges_joined_in_part(const core::Scene& scene) {
+  core::Broken broken;
+  if (scene.bed.held || scene.discharges.empty()) return broken;
+  for (const auto& [a, b] : holes_in_part_joined(scene, bare_box_of(scene.column)))
+    broken.add({std::to_string(a + 1), std::to_string(b + 1)}, b);
+  return broken;
 }
 
 }  // namespace
@@ -65,12 +78,16 @@ const std::vector<core::Rule>& model_rules() {
        [](const core::Scene& scene) {
          const bool walls =
              std::any_of(scene.walls.begin(), scene.walls.end(), [](const auto& w) { return w.is_round(); });
-         return core::broken_if((scene.column.is_round() || walls) && discharges_below(scene));
+         return core::broken_if(!scene.bed.held && (scene.column.is_round() || walls) && discharges_below(scene));
        }},
       {{"discharge.from", "discharge.to", "discharge.at", "species.diameter"},
        "[[discharge]] number {}: the largest particle, of {} m, must fit through: move discharge.from and discharge.to "
        "apart",
        blocked_discharges},
+      {{"discharge.from", "discharge.to", "discharge.at", "column.size", "column.cells"},
+       "[[discharge]] number {} and {} share a part of an edge: polybed tfm can run it, polybed dem cannot: particles "
+       "would meet a rim there; let them share the whole edge, or move them apart",
+       discharges_joined_in_part},
       {{"discharge.at", "fluid.name", "fluid.equation_of_state"},
        "[[discharge]] in a compressible fluid: polybed tfm can run it, polybed dem cannot: the mass of the fluid that "
        "takes the place of a particle as it leaves would be missing; use fluid.equation_of_state = \"incompressible\"",

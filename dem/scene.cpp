@@ -11,6 +11,7 @@
 #include "closures/sphere.hpp"
 #include "closures/terminal_velocity.hpp"
 #include "core/error.hpp"
+#include "dem/holes.hpp"
 #include "dem/packing.hpp"
 #include "relevance/fluid_properties.hpp"
 
@@ -31,22 +32,6 @@ double most_walls(const core::Scene& scene) { return scene.walls.empty() && !sce
 /// Half the height of the side of a round box over the box's: particles fly beyond an open top.
 constexpr double beyond_the_top = 100;
 
-/// Where a discharge ends with its face there is no rim. Rules ask for the box of cases whose corners are refused, too.
-Opening hole_of(const core::Discharge& discharge, const Box& box, int dimensions) {
-  const int axis = axis_of(discharge.at), side = side_of(discharge.at);
-  constexpr double endless = std::numeric_limits<double>::infinity();
-  Opening hole{axis, side, side * box.size[std::size_t(axis)], {}, {endless, endless, endless}};
-  for (std::size_t n = 0; n < std::min(discharge.from.size(), discharge.to.size()); ++n) {
-    const auto k = std::size_t(axis_along(discharge.at, dimensions, n));
-    const double far = beyond_the_top * box.size[k];
-    const double low = discharge.from[n] > 0 ? discharge.from[n] : -far,
-                 high = discharge.to[n] < box.size[k] * (1 - 1e-12) ? discharge.to[n] : far;
-    hole.middle[k] = 0.5 * (low + high);
-    hole.half[k] = 0.5 * (high - low);
-  }
-  return hole;
-}
-
 void add_openings(const core::Scene& scene, Box& box) {
   constexpr double endless = std::numeric_limits<double>::infinity();
   if (scene.dem.opening) {
@@ -56,8 +41,7 @@ void add_openings(const core::Scene& scene, Box& box) {
   }
   if (is_open_at_top(scene)) box.openings.push_back({1, 1, box.size[1], {}, {endless, endless, endless}});
   if (scene.bed.held) return;
-  for (const core::Discharge& discharge : scene.discharges)
-    box.openings.push_back(hole_of(discharge, box, scene.column.dimensions));
+  for (const Hole& hole : holes_of(scene, box)) box.openings.push_back(hole.opening);
 }
 
 /// The walls inside, those of a tapered column, and the side of a round box. Those of one shape join: a scene has
@@ -137,12 +121,17 @@ double fall_height(const core::Scene& scene, const Materials& materials, const B
 
 }  // namespace
 
-Box box_of(const core::Scene& scene) {
-  const core::Column& column = scene.column;
+Box bare_box_of(const core::Column& column) {
   Box box;
   box.size = column.size;
   box.periodic = {column.sides == core::Boundary::periodic, column.ends == core::Boundary::periodic,
                   column.dimensions == 2 || column.sides == core::Boundary::periodic};
+  return box;
+}
+
+Box box_of(const core::Scene& scene) {
+  const core::Column& column = scene.column;
+  Box box = bare_box_of(column);
   box.shear_rate = scene.column.shear_rate;
   box.round = column.is_round();
   if (column.is_tapered()) box.side = TaperedSide(column);

@@ -13,6 +13,8 @@ namespace polybed::dem {
 
 /// The column as a box of particles. A 2-D column is periodic in its depth.
 [[nodiscard]] Box box_of(const core::Scene& scene);
+/// Its size and which sides are joined: the box without walls.
+[[nodiscard]] Box bare_box_of(const core::Column& column);
 
 /// m/s2.
 [[nodiscard]] Vector gravity_of(const core::Scene& scene);

@@ -218,7 +218,7 @@ Table discharge_table() {
       {
           key(&Discharge::at, "at", Mark::required,
               help("bottom or side through which fluid and solids leave together, as they are in the cells next to it; "
-                   "in polybed dem particles leave through a hole there with a sharp rim, also without a fluid")),
+                   "in polybed dem particles leave through a hole there with a sharp rim, also where nothing flows")),
           key(&Discharge::superficial_velocity, "superficial_velocity", dimension::velocity, range(0, 1e3),
               Mark::required,
               help("volume of the mixture per area of the discharge and time, out of the column; a velocity or a table "

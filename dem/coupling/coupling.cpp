@@ -121,9 +121,10 @@ Coupling::Coupling(const core::Scene& scene, const Materials& materials, std::sh
   if (const auto wake =
           own_wake_of(scene, core::whole_column(flow_.grid()), width_, materials.greatest_diameter(), count))
     forces_.see_past_own_wake(*wake);
+  if (const Box box = box_of(scene); !box.openings.empty() || is_fed(scene)) scatter_.open(box);
   if (scene.dem.own_share == core::OwnShare::removed)
-    own_.emplace(core::whole_column(flow_.grid()), smoothing_, diameters(materials), forces_.needs_squares());
-  if (const Box box = box_of(scene); !box.openings.empty()) scatter_.open(box);
+    own_.emplace(core::whole_column(flow_.grid()), smoothing_, diameters(materials), forces_.needs_squares(),
+                 scatter_.open_faces());
   for (Field& component : vorticity_)
     if (sides_.needs_vorticity()) component = core::make_field(flow_.grid());
   if (!flow_.grid().ranks) return;

@@ -63,8 +63,9 @@ class Coupling final : public KeptPart {
   void settle_in(const Particles& particles);
   /// Forgets what is kept of the particles that are about to be taken out.
   void let_go(const Outflow& outflow, const Particles& particles);
-  /// Particles that have entered since the end of a step of the fluid: their volumes count from now on, and forces act
-  /// on them; nothing changes for the others. Collective. \param first  least id of those that have entered
+  /// From here on particles count as far as they have come in.
+  void see(Arrivals arrivals) { scatter_.open_faces()->see(std::move(arrivals)); }
+  /// Particles that have entered since the end of a step of the fluid: forces act on them from now on; nothing changes for the others. Collective. \param first  least id of those that have entered
   void take_in(const Particles& particles, std::int64_t first);
   /// What a particle costs over what it costs to be in a contact: 5.5 was measured (docs/theory/parallel.md).
   static constexpr std::int32_t work_of_particle = 5;

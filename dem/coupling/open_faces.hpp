@@ -1,10 +1,13 @@
-// The open top of a column and the holes in its faces: how much of a particle that passes them counts for the fluid.
+// The open top of a column, the holes in its faces, and its feeds: how much of a particle that passes them counts for
+// the fluid.
 #pragma once
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 #include "closures/sphere.hpp"
+#include "dem/arrivals.hpp"
 #include "dem/box.hpp"
 #include "dem/coupling/weights.hpp"
 #include "measures/particle_profile.hpp"
@@ -24,13 +27,17 @@ class OpenFaces {
         faces_.push_back(opening);
   }
 
-  /// Whether a part of the particle, or all of it, is beyond one of them.
-  [[nodiscard]] bool cuts(const Place& place) const {
-    return std::any_of(faces_.begin(), faces_.end(), [&](const Opening& face) { return cuts(face, place); });
+  /// From here on particles count as their arrivals say.
+  void see(Arrivals arrivals) { arrivals_ = std::move(arrivals); }
+
+  /// Whether a part of the particle, or all of it, is beyond one of them, or is still to come in.
+  [[nodiscard]] bool cuts(const Place& place, std::int64_t id) const {
+    return id >= arrivals_.first ||
+           std::any_of(faces_.begin(), faces_.end(), [&](const Opening& face) { return cuts(face, place); });
   }
   /// Share of its volume that is inside.
-  [[nodiscard]] double inside(const Place& place) const {
-    double share = 1;
+  [[nodiscard]] double inside(const Place& place, std::int64_t id) const {
+    double share = arrivals_.share_of(id);
     for (const Opening& face : faces_)
       if (cuts(face, place))
         share *= measures::sphere_volume_below(place.radius, face.outward(place.x), face.outward(face.place)) /
@@ -53,6 +60,7 @@ class OpenFaces {
   Box box_;
   std::vector<Opening> faces_;  ///< one opening of each face that has any
   double spacing_;              ///< of a cell, m
+  Arrivals arrivals_;
 };
 
 }  // namespace polybed::dem

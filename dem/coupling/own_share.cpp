@@ -8,8 +8,8 @@
 namespace polybed::dem {
 
 OwnShare::OwnShare(const core::Grid& grid, const fluid::Smoothing& smoothing, std::vector<double> diameter,
-                   bool squares)
-    : dimensions_(grid.dimensions), per_volume_(1 / grid.cell_volume()), diameter_(std::move(diameter)) {
+                   bool squares, const OpenFaces* open)
+    : open_(open), dimensions_(grid.dimensions), per_volume_(1 / grid.cell_volume()), diameter_(std::move(diameter)) {
   for (int axis = 0; axis < dimensions_; ++axis) {
     stride_[std::size_t(axis)] = grid.stride(axis);
     near_[std::size_t(axis)] = smoothing.nearest(axis, grid.cells[std::size_t(axis)]);
@@ -54,14 +54,14 @@ double OwnShare::weight(const Lines& lines) const {
   return product;
 }
 
-double OwnShare::per_square_without(double seen, const Lines& lines, std::int32_t species) const {
+double OwnShare::per_square_without(double seen, const Lines& lines, std::int32_t species, double inside) const {
   double count = 0;
   for_each_cell(dimensions_, lines,
                 [&](std::size_t at, double w) { count += w * squares_[at * diameter_.size() + std::size_t(species)]; });
-  return std::max(0.0, seen - weight(lines) * count);
+  return std::max(0.0, seen - inside * weight(lines) * count);
 }
 
-Surroundings OwnShare::without(Surroundings seen, const Lines& lines, std::int32_t species) const {
+Surroundings OwnShare::without(Surroundings seen, const Lines& lines, std::int32_t species, double inside) const {
   Surroundings count;
   for_each_cell(dimensions_, lines, [&](std::size_t at, double w) {
     const Surroundings& cell = counts_[at * diameter_.size() + std::size_t(species)];
@@ -70,7 +70,7 @@ Surroundings OwnShare::without(Surroundings seen, const Lines& lines, std::int32
     count.average += w * cell.average;
     count.own += w * cell.own;
   });
-  const double kernel = weight(lines);
+  const double kernel = inside * weight(lines);
   // What a particle alone leaves is round-off, or what the law of a few makes of the field that it gives itself.
   const auto rest = [&](double all, double own) { return std::max(0.0, all - kernel * own); };
   seen.fraction = rest(seen.fraction, count.fraction);

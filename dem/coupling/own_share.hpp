@@ -9,6 +9,7 @@
 
 #include "core/numerics/field.hpp"
 #include "dem/coupling/gather.hpp"
+#include "dem/coupling/open_faces.hpp"
 #include "fluid/smoothing.hpp"
 
 namespace polybed::dem {
@@ -16,24 +17,33 @@ namespace polybed::dem {
 class OwnShare {
  public:
   /// \param smoothing  of what particles give to the fluid \param diameter  of each species, m
-  /// \param squares  whether per_square_without will be asked
+  /// \param squares  whether per_square_without will be asked  \param open  that particles pass; null: none
   OwnShare(const core::Grid& grid, const fluid::Smoothing& smoothing, std::vector<double> diameter,
-           bool squares = false);
+           bool squares = false, const OpenFaces* open = nullptr);
+
+  /// Share of a particle's volume that counts.
+  [[nodiscard]] double inside(const Place& place, std::int64_t id) const {
+    return open_ != nullptr ? open_->inside(place, id) : 1;
+  }
 
   /// What each species counts for in every cell, from closures::SphereNeighbours. \param fraction  [species][cell]
   void take(const std::vector<core::Field>& fraction);
 
   /// The surroundings as a mean of the mixture, from those that the particle sees with itself among them.
   /// The kernel is taken to be wide against the correlation of neighbours, two or three diameters.
-  [[nodiscard]] Surroundings without(Surroundings seen, const Lines& lines, std::int32_t species) const;
+  /// \param inside  share of its volume that counts
+  [[nodiscard]] Surroundings without(Surroundings seen, const Lines& lines, std::int32_t species,
+                                     double inside = 1) const;
 
   /// The same of sum phi_j/D_j^2, 1/m2.
-  [[nodiscard]] double per_square_without(double seen, const Lines& lines, std::int32_t species) const;
+  [[nodiscard]] double per_square_without(double seen, const Lines& lines, std::int32_t species,
+                                          double inside = 1) const;
 
   /// The kernel at its own place: what a volume of 1 at x adds to the average at x, 1/m3.
   [[nodiscard]] double weight(const Lines& lines) const;
 
  private:
+  const OpenFaces* open_;
   int dimensions_;
   std::array<core::Index, 3> stride_{};
   double per_volume_;                                       ///< of a cell, 1/m3

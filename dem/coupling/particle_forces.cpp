@@ -58,8 +58,9 @@ void ParticleForces::see(const Asked& asked, std::size_t begin, std::size_t coun
     if (needs_squares) batch.per_square[n] = gather.per_square(lines);
     if constexpr (!round) {
       if (own != nullptr) {
-        solids = own->without(solids, lines, species);
-        if (needs_squares) batch.per_square[n] = own->per_square_without(batch.per_square[n], lines, species);
+        const double inside = own->inside(particles.place[i], particles.id[i]);
+        solids = own->without(solids, lines, species, inside);
+        if (needs_squares) batch.per_square[n] = own->per_square_without(batch.per_square[n], lines, species, inside);
       }
     }
     const Stream stream = gather.stream(lines);

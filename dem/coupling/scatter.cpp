@@ -70,8 +70,8 @@ void Scatter::add_moving(Scatter& sums, const Particles& particles, const std::v
                       f.impulse,
                       std::size_t(particles.species[i])};
     if constexpr (open) {
-      if (sums.open_->cuts(place)) {
-        sums.add_cut<count, round>(place, given);
+      if (sums.open_->cuts(place, particles.id[i])) {
+        sums.add_cut<count, round>(place, particles.id[i], given);
         continue;
       }
     }
@@ -81,8 +81,8 @@ void Scatter::add_moving(Scatter& sums, const Particles& particles, const std::v
 
 /// All that it gives, in the share that is inside: the fluid beyond the face takes the rest.
 template <std::size_t count, bool round>
-void Scatter::add_cut(const Place& place, Given given) {
-  const double share = open_->inside(place);
+void Scatter::add_cut(const Place& place, std::int64_t id, Given given) {
+  const double share = open_->inside(place, id);
   given.volume *= share;
   for (double& amount : given.same) amount *= share;
   for (double& component : given.impulse) component *= share;

@@ -21,8 +21,10 @@ class Scatter {
   /// \param volume  of all particles, m3  \param speed  greatest expected, m/s
   Scatter(const core::Grid& grid, const core::Grid& block, const Materials& materials, bool added_mass, double volume,
           double speed);
-  /// From here on particles pass the openings of a box, and count as far as they are inside.
+  /// From here on particles pass the openings of a box or come in, and count as far as they are inside.
   void open(const Box& box) { open_.emplace(grid_, box); }
+  /// Null: no particle passes a face.
+  [[nodiscard]] OpenFaces* open_faces() { return open_ ? &*open_ : nullptr; }
   /// Null in a box.
   [[nodiscard]] const std::shared_ptr<const RoundWeights>& round() const { return round_; }
 
@@ -64,7 +66,7 @@ class Scatter {
   template <std::size_t count, class Shares>
   void add(const Shares& shares, const Given& given);
   template <std::size_t count, bool round>
-  void add_cut(const Place& place, Given given);
+  void add_cut(const Place& place, std::int64_t id, Given given);
   template <class Act>
   void with_count(Act&& act) const;
   void add_up(const core::Ranks* ranks);

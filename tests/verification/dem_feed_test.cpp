@@ -1,4 +1,5 @@
 // Particles that enter through [[feed]]: how many, when and where, and the accounts of what they bring.
+#include <numbers>
 #include <numeric>
 #include <utility>
 
@@ -225,28 +226,34 @@ std::vector<double> solids_of(const dem::Model& model) {
   return phi;
 }
 
-// In a fluid a particle enters at the end of a step of the fluid. Its volume is in the cells from then on, at most all
-// of it in one: V/h^3 = 0.5236/1.5^3. Forces of the fluid act on it from its first step on.
-TEST(DemFeed, CountsInTheCellsOfAFluidAtOnce) {
+// In a fluid a particle enters at the end of a step of the fluid. Its volume grows in the cells as if it came through a
+// plane at the feed's velocity v: pi z^2 (3 r - z)/3 at z = v t, at most pi r^2 v dt in a step. Forces of the fluid act
+// on it from its first step on. 1e-9: volumes are sums of whole units.
+TEST(DemFeed, GrowsInTheCellsOfAFluid) {
   constexpr int every = 8;
   Beads beads(fed_water(every), {{"a", {6e-3, 4e-3, 6e-3}}});
   const dem::Model& model = beads.model;
   const double cell = std::pow(1.5e-3, 3), moved = 1e-2;  // by others in a step of the fluid
-  std::int64_t entered = 0;
+  const double most = std::numbers::pi * r * r * 0.1 * every * model.limits().dt;
+  std::vector<double> since;
   for (std::vector<double> before = solids_of(model); model.time() < 0.03;) {
-    beads.steps(1);
+    beads.steps(every);
     const std::vector<double> now = solids_of(model), last = std::exchange(before, now);
-    if (model.feeding()->all() == entered) continue;
-    EXPECT_EQ(model.feeding()->all(), ++entered);
-    EXPECT_EQ(model.steps() % every, 0);
-    EXPECT_NEAR(std::accumulate(now.begin(), now.end(), 0.0) * cell, double(1 + entered) * volume, 1e-9 * volume);
+    if (model.feeding()->all() > std::int64_t(since.size())) since.push_back(model.time());
+    EXPECT_EQ(model.feeding()->all(), std::int64_t(since.size()));
+    double expected = volume;
+    for (const double t : since) {
+      const double z = std::min(0.1 * (model.time() - t), 2 * r);
+      expected += std::numbers::pi * z * z * (3 * r - z) / 3;
+    }
+    EXPECT_NEAR(std::accumulate(now.begin(), now.end(), 0.0) * cell, expected, 1e-9 * volume);
     double jump = 0;
     for (std::size_t c = 0; c < now.size(); ++c) jump = std::max(jump, now[c] - last[c]);
-    EXPECT_LE(jump, volume / cell + moved);
+    EXPECT_LE(jump, most / cell + moved);
     for (std::size_t i = 0; i < model.particles().owned; ++i) EXPECT_GT(model.coupling()->motion().load[i].drag, 0);
   }
   // 1 mm/s of 144 mm2 for 30 ms: 4.32 mm3
-  EXPECT_EQ(entered, 8);
+  EXPECT_EQ(since.size(), 8);
 }
 
 TEST(DemFeed, InAFluidResumesWithTheSameBits) {

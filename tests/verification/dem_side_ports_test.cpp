@@ -85,6 +85,43 @@ TEST(DemSidePorts, AHoleEndsWithItsSide) {
   }
 }
 
+/// Hertz's force at an overlap of 5 um, N.
+double hertz() {
+  return 4.0 / 3 * youngs_modulus / (1 - poisson_ratio * poisson_ratio) * std::sqrt(r) * std::pow(5e-6, 1.5);
+}
+
+// Two discharges with an edge in common are one hole: no wire pushes where they meet, its other rims do. Beyond a
+// joined side the hole ends where its image does: at 17 mm and 6 mm of a bottom of 20 mm, with nothing at 0.
+TEST(DemSidePorts, DischargesSideBySideAreOneHole) {
+  const double near = r - 5e-6, allowed = 1e-10 * hertz();
+  core::Scene scene = holed(ColumnFace::right);
+  scene.discharges.push_back({ColumnFace::right, {7e-3, 8e-3}, {13e-3, 11e-3}, {{0.0, 0.1}}});
+  EXPECT_EQ(force_at(scene, {width, 8e-3 - near, 10e-3}), (dem::Vector{0, 0, 0}));
+  EXPECT_EQ(force_at(scene, {width, 8e-3 + near, 10e-3}), (dem::Vector{0, 0, 0}));
+  EXPECT_NEAR(force_at(scene, {width, 11e-3 - near, 10e-3})[1], -hertz(), allowed);
+  scene = holed(ColumnFace::bottom);
+  scene.column.sides = core::Boundary::periodic;
+  scene.discharges = {{ColumnFace::bottom, {0, 7e-3}, {6e-3, 13e-3}, {{0.0, 0.1}}}};
+  EXPECT_NEAR(force_at(scene, {near, 0, 10e-3})[0], hertz(), allowed);
+  EXPECT_NEAR(force_at(scene, {6e-3 - near, 0, 10e-3})[0], -hertz(), allowed);
+  EXPECT_NEAR(force_at(scene, {width - 1e-3, near, 10e-3})[1], hertz(), allowed);
+  scene.discharges.push_back({ColumnFace::bottom, {17e-3, 7e-3}, {width, 13e-3}, {{0.0, 0.1}}});
+  for (const double x : {near, width - near, 0.0}) EXPECT_EQ(force_at(scene, {x, 0, 10e-3}), (dem::Vector{0, 0, 0}));
+  EXPECT_NEAR(force_at(scene, {17e-3 + near, 0, 10e-3})[0], hertz(), allowed);
+  EXPECT_NEAR(force_at(scene, {6e-3 - near, 0, 10e-3})[0], -hertz(), allowed);
+}
+
+// A chute that ends on the lower rim of a hole: beyond its end one of the two pushes.
+TEST(DemSidePorts, AWallThatEndsAtARimPushesOnce) {
+  core::Scene scene = holed(ColumnFace::right);
+  scene.walls.push_back({{12e-3, 9e-3}, {width, 4e-3}});
+  for (const double out : {0.6, 0.9}) {
+    const double near = r - 5e-6;
+    const dem::Vector force = force_at(scene, {width + near * out, 4e-3 + near * std::sqrt(1 - out * out), 10e-3});
+    EXPECT_NEAR(std::hypot(force[0], force[1]), hertz(), 1e-10 * hertz()) << out;
+  }
+}
+
 // Without loss a sphere that strikes the rim on its way out takes with it what it had: m g h and m v^2/2. 1e-4: the
 // integration's error of an impact of 100 steps.
 TEST(DemSidePorts, TakesOutTheEnergyThatCameIn) {
@@ -229,6 +266,29 @@ TEST(DemSidePorts, AFeedEntersThroughItsPort) {
     }
     compare("carried in", dem::totals_of(beads.model).carried_in, 9 * mass_of(r, density) * 0.125, 1e-9);
   }
+}
+
+// Two faces whose feeds share a corner and call in the same steps. What enters overlaps nothing, but for what it moves
+// in its first step.
+TEST(DemSidePorts, FeedsInACornerLeaveEachOtherRoom) {
+  core::Scene scene = dry_box(r, {youngs_modulus, poisson_ratio, density}, {width, width, width});
+  scene.feeds.push_back({"a", ColumnFace::left, {{0.0, 0.1}}, 0.5, {0, 0}, {width, 2e-3}});
+  scene.feeds.push_back({"a", ColumnFace::bottom, {{0.0, 0.1}}, 0.5, {0, 0}, {2e-3, width}});
+  Beads beads(scene, {{"a", {0.01, 0.019, 0.01}}});
+  const dem::Particles& particles = beads.model.particles();
+  const double step = 0.5 * beads.model.limits().dt;
+  std::int64_t before = 1;
+  while (beads.model.time() < 0.02) {
+    beads.steps(1);
+    for (std::size_t i = 0; i < particles.owned; ++i)
+      for (std::size_t j = 0; particles.id[i] >= before && j < particles.owned; ++j) {
+        if (i == j) continue;
+        const dem::Vector &a = particles.place[i].x, &b = particles.place[j].x;
+        ASSERT_GE(std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]), 2 * r - 3 * step);
+      }
+    before = 1 + beads.model.feeding()->all();
+  }
+  EXPECT_GT(before, 50);
 }
 
 TEST(DemSidePorts, AreAbsentFromAFixedBedAndAWholeBox) {

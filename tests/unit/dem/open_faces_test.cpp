@@ -48,15 +48,29 @@ double sum(const core::Field& field) { return std::accumulate(field.begin(), fie
 // A cap of height h has the volume pi h^2 (3 r - h)/3: with h = r/2 that is 5/32 of the sphere.
 TEST(OpenFaces, LeavesTheShareOfASphericalCap) {
   const OpenFaces top(core::grid_of(cloud_scene(3, false).column, nullptr), open_top());
-  const auto share = [&](double above) { return top.inside({{5e-3, height + above, 5e-3}, r}); };
+  const auto share = [&](double above) { return top.inside({{5e-3, height + above, 5e-3}, r}, 0); };
   EXPECT_NEAR(share(-2 * r), 1, 1e-14);
   EXPECT_NEAR(share(-r), 1, 1e-12);
   EXPECT_NEAR(share(-0.5 * r), 27.0 / 32, 1e-12);
   EXPECT_NEAR(share(0), 0.5, 1e-12);
   EXPECT_NEAR(share(0.5 * r), 5.0 / 32, 1e-12);
   EXPECT_EQ(share(1.001 * r), 0);
-  EXPECT_FALSE(top.cuts({{5e-3, height - 1.001 * r, 5e-3}, r}));
-  EXPECT_TRUE(top.cuts({{5e-3, height - 0.999 * r, 5e-3}, r}));
+  EXPECT_FALSE(top.cuts({{5e-3, height - 1.001 * r, 5e-3}, r}, 0));
+  EXPECT_TRUE(top.cuts({{5e-3, height - 0.999 * r, 5e-3}, r}, 0));
+}
+
+// Of the particles that come in the last ones count in part.
+TEST(OpenFaces, CountWhatComesInAsItsArrivalSays) {
+  OpenFaces top(core::grid_of(cloud_scene(3, false).column, nullptr), open_top());
+  const Place low{{5e-3, 2 * r, 5e-3}, r}, half{{5e-3, height, 5e-3}, r};
+  top.see({.first = 7, .share = {0.25, 0.5}});
+  EXPECT_FALSE(top.cuts(low, 6));
+  EXPECT_EQ(top.inside(low, 6), 1);
+  EXPECT_TRUE(top.cuts(low, 7));
+  EXPECT_EQ(top.inside(low, 7), 0.25);
+  EXPECT_NEAR(top.inside(half, 8), 0.25, 1e-12);
+  top.see({});
+  EXPECT_FALSE(top.cuts(low, 7));
 }
 
 // Half a radius above the top: 5/32 of the sphere are in the uppermost cell. On the face, which stands for half a cell,
@@ -108,13 +122,13 @@ TEST(OpenFaces, CutAtAHoleInASide) {
   scene.discharges.push_back({core::ColumnFace::left, {0, 4e-3}, {scene.column.size[2], 8e-3}, {{0.0, 0.1}}});
   const OpenFaces side(core::grid_of(scene.column, nullptr), box_of(scene));
   const auto at = [](double x, double y) { return Place{{x, y, 5e-3}, r}; };
-  EXPECT_FALSE(side.cuts(at(1.001 * r, 6e-3)));
-  EXPECT_FALSE(side.cuts(at(0.99 * r, 3.9e-3)));
-  EXPECT_FALSE(side.cuts(at(0.99 * r, 8.1e-3)));
-  EXPECT_EQ(side.inside(at(0.99 * r, 3.9e-3)), 1);
-  EXPECT_NEAR(side.inside(at(0.5 * r, 6e-3)), 27.0 / 32, 1e-12);
-  EXPECT_NEAR(side.inside(at(0, 4.1e-3)), 0.5, 1e-12);
-  EXPECT_NEAR(side.inside(at(-0.5 * r, 3.9e-3)), 5.0 / 32, 1e-12);
+  EXPECT_FALSE(side.cuts(at(1.001 * r, 6e-3), 0));
+  EXPECT_FALSE(side.cuts(at(0.99 * r, 3.9e-3), 0));
+  EXPECT_FALSE(side.cuts(at(0.99 * r, 8.1e-3), 0));
+  EXPECT_EQ(side.inside(at(0.99 * r, 3.9e-3), 0), 1);
+  EXPECT_NEAR(side.inside(at(0.5 * r, 6e-3), 0), 27.0 / 32, 1e-12);
+  EXPECT_NEAR(side.inside(at(0, 4.1e-3), 0), 0.5, 1e-12);
+  EXPECT_NEAR(side.inside(at(-0.5 * r, 3.9e-3), 0), 5.0 / 32, 1e-12);
   EXPECT_EQ(side.on_faces(at(-0.5 * r, 6e-3)), 1);
 }
 

@@ -58,6 +58,10 @@ TEST(OwnShare, IsAllThatAParticleAloneSees) {
           // Sums stand in units of 2^-62 of 64 times the volume; and 16 steps of the kernel.
           EXPECT_NEAR(around.seen(x, 1).fraction / (cloud.volume * kernel), 1, 1e-12) << dimensions << width;
           const Lines lines = around.gather.lines(x);
+          const auto left = [&](double inside) {
+            return around.own.without(around.seen(x, 1), lines, 1, inside).fraction;
+          };
+          EXPECT_NEAR(left(0.25), 0.75 * left(0) + 0.25 * left(1), 1e-12 * left(0));
           const double square = around.gather.per_square(lines);
           EXPECT_NEAR(square * 1.1e-3 * 1.1e-3, around.seen(x, 1).fraction, 1e-12 * around.seen(x, 1).fraction);
           EXPECT_NEAR(around.own.per_square_without(square, lines, 1) * 1.1e-3 * 1.1e-3, around.without(x, 1).fraction,
