@@ -111,6 +111,20 @@ void with_metric(const Grid& grid, Act&& act) {
   grid.metric ? act(GeneralMetric(*grid.metric)) : act(UniformMetric());
 }
 
+/// Calls body(begin, end) for the rows of a box without the closed cells at their ends. What no flux can reach keeps
+/// its value.
+template <class Body>
+void for_each_open_row(const Grid& grid, const Box& box, Body&& body) {
+  for_each_row(grid, box, [&](Index begin, Index end) {
+    if (grid.metric) {
+      const double* volume = grid.metric->volume.data();
+      while (begin < end && volume[begin] == 0) ++begin;
+      while (begin < end && volume[end - 1] == 0) --end;
+    }
+    if (begin < end) body(begin, end);
+  });
+}
+
 /// Open volume of a layer of the column, in whole cells, and open area of the faces below it, in whole faces.
 [[nodiscard]] double open_cells_of_layer(const Grid& grid, int layer = 0);
 [[nodiscard]] double open_faces_below(const Grid& grid, int layer);

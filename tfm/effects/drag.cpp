@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "closures/drag.hpp"
+#include "core/numerics/metric.hpp"
 #include "fluid/fluid_state.hpp"
 #include "relevance/drag_law.hpp"
 #include "relevance/effects/gas_slip.hpp"
@@ -32,7 +33,7 @@ class Drag : public FluidExchange {
   }
   void evaluate(Fields& fields) override {
     const double scale = 18 * constants_.fluid.viscosity;
-    core::for_each_row(constants_.grid, boundaries_.solids_cells(), [&](Index begin, Index end) {
+    core::for_each_open_row(constants_.grid, boundaries_.solids_cells(), [&](Index begin, Index end) {
       const std::size_t row = std::size_t(begin), cells = std::size_t(end - begin);
       for (std::size_t j = 0; j < constants_.species(); ++j) {
         share_[j] = fields.share[j].data() + row;
