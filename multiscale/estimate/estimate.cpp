@@ -27,17 +27,18 @@ TimeBand band_of(double seconds, const Spread& spread) {
   return {expected / spread.factor, expected, expected * spread.factor};
 }
 
-/// Of the two-fluid model, from the runs of docs/record/cost.md: 0.4 to 2.6 of explicit ones, 0.2 to 8.2 of implicit
-/// ones, which start with many Newton iterations and take longer steps until bubbles form, 0.3 to 1.4 of split ones,
-/// whose steps grow as the bed comes to rest. A probe knows what a step costs and how long the first ones are, not
-/// those of the expanded bed.
+/// Of the two-fluid model. What runs took over the cost of their steps (docs/record/cost.md): 0.3 to 1.4 with split
+/// steps, which grow as the bed comes to rest, 0.2 to 8.2 with implicit ones, which start with many Newton iterations
+/// and take longer steps until bubbles form; explicit ones took 0.4 to 2.6 in earlier runs. A probe measures the cost
+/// and the length of the first steps, not of those in the expanded bed.
 Spread tfm_spread(core::TfmIntegrator integrator) {
   using enum core::TfmIntegrator;
   if (integrator == implicit_steps) return {1.5, 6};
   return {integrator == split_steps ? 0.55 : 1, 2.6};
 }
 constexpr double probe_factor = 1.8;
-/// Of the particles: a dilute bed is up to four times as fast as the dense ones that were measured.
+/// Of the particles, with constants of this machine: a dilute bed is up to four times as fast as the dense ones that
+/// were measured.
 constexpr Spread dem_spread{1, 2.5};
 /// Constants that were not measured on this machine.
 constexpr double shipped_factor = 3;
