@@ -37,8 +37,7 @@ Spread tfm_spread(core::TfmIntegrator integrator) {
   return {integrator == split_steps ? 0.55 : 1, 2.6};
 }
 constexpr double probe_factor = 1.8;
-/// Of the particles, with constants of this machine: a dilute bed is up to four times as fast as the dense ones that
-/// were measured.
+/// Of the particles, with constants of this machine: dilute beds are up to four times as fast as the measured ones.
 constexpr Spread dem_spread{1, 2.5};
 /// Constants that were not measured on this machine.
 constexpr double shipped_factor = 3;
