@@ -79,7 +79,7 @@ std::optional<double> time_of_step(tfm::Model& model, double until, int most_ste
 double superficial_velocity(const tfm::Model& model) { return model.inlet().greatest_below(); }
 
 /// Solids fraction of a bed that is packed still but carried by the fluid: where the solids stress carries a tenth of
-/// the weight. The tenth is fitted to the steps that runs took while their beds were lifted, docs/record/cost.md.
+/// the weight. The tenth is fitted to the steps that runs took while their beds were lifted.
 double lifted_fraction(const core::Scene& scene, const tfm::Model& model) {
   const double rest = scene.bed.solids_fraction;
   if (!model.effects().solids_stress) return rest;

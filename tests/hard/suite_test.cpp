@@ -245,7 +245,7 @@ TEST(Draws, HaveTimesThatNearlyMeet) {
 }
 
 // Draws whose account of energy did not close when nothing had moved far yet: what was cut to whole units, rounding of
-// places, and the first step of a slip that relaxes far within it (see docs/record/stability.md).
+// places, and the first step of a slip that relaxes far within it.
 TEST(Draws, CloseTheAccountOfEnergyFromTheFirstStepsOn) {
   constexpr double cpu = 0.2;  // s each; they failed after 64 or 128 steps
   for (const std::uint64_t n : {2, 31, 41, 109, 206}) {

@@ -2,7 +2,7 @@
 
 VERSION = 1  # of the weights: numbers weighed by other versions are not to be compared
 # ns each, fitted on 2026-11-21 to the timers of system B's strip by both integrators and by particles, of glass in air and of a bed that
-# settles without a fluid, docs/record/cost.md. A change of one of them is a new version. What has none, such as the steps, does not count.
+# settles without a fluid. A change of one of them is a new version. What has none, such as the steps, does not count.
 WEIGHTS = {"rhs_evaluations x unknowns": 23, "pressure_iterations x unknowns": 8, "jacobian_products x unknowns": 90, "particle_steps": 15,
            "pair_checks": 4, "contact_evaluations": 25, "candidates": 7, "particle_steps in the fluid": 38, "fluid_steps": 2e5,
            "fluid_steps x particles": 300, "fluid_iterations x cells": 60}
