@@ -6,7 +6,7 @@ measures::Table<Told> history_table(const Parts& parts) {
   measures::Table<Told> table{
       {"kinetic", "J", "energy of motion", [](const Told& t) { return t.totals.kinetic; }},
       {"rotational", "J", "energy of spin", [](const Told& t) { return t.totals.rotational; }},
-      {"elastic", "J", "energy of the springs of contacts, and of attraction, which is negative",
+      {"elastic", "J", "energy of contact springs, and of attraction (negative)",
        [](const Told& t) { return t.totals.elastic; }},
       {"potential", "J", "energy in gravity", [](const Told& t) { return t.totals.potential; }}};
   const auto add = [&table](bool there, measures::Measure<Told> measure) {
@@ -14,19 +14,19 @@ measures::Table<Told> history_table(const Parts& parts) {
   };
   add(parts.ledger,
       {"dissipated", "J", "lost in contacts since the start", [](const Told& t) { return t.totals.dissipated; }});
-  add(parts.ledger, {"work", "J",
-                     "done on the particles since the start by the fluid, by the flow of a sheared box, and by joined "
-                     "faces, which gravity pulls them through: "
-                     "kinetic + rotational + elastic + potential + dissipated - work stays what it was",
-                     [](const Told& t) { return t.totals.work; }});
-  add(parts.ledger && parts.outflow, {"carried_out", "J",
-                                      "where particles leave: energy that they have taken out with them since the "
-                                      "start; in the sum above it counts as dissipated energy does",
-                                      [](const Told& t) { return t.totals.carried_out; }});
+  add(parts.ledger,
+      {"work", "J",
+       "done on the particles since the start by the fluid, a sheared box, and gravity through joined faces: "
+       "kinetic + rotational + elastic + potential + dissipated - work is constant",
+       [](const Told& t) { return t.totals.work; }});
+  add(parts.ledger && parts.outflow,
+      {"carried_out", "J",
+       "energy of the particles that have left; in the sum above it counts as dissipated energy does",
+       [](const Told& t) { return t.totals.carried_out; }});
   add(parts.ledger && parts.feeding,
       {"carried_in", "J",
-       "with [[feed]]: energy of motion and in gravity that particles have brought with them since the start; in the "
-       "sum above it counts as work does",
+       "with [[feed]]: kinetic and potential energy of the particles that have entered; in the sum above it counts as "
+       "work does",
        [](const Told& t) { return t.totals.carried_in; }});
   add(true, {"contacts", "1", "pairs that touch, and particles that touch a wall",
              [](const Told& t) { return double(t.totals.contacts); }});
@@ -41,12 +41,12 @@ measures::Table<Told> history_table(const Parts& parts) {
       {"out", "1",
        "with dem.opening, column.outlet = \"open\" or [[discharge]]: particles that have left since the start",
        [](const Told& t, measures::Members j) { return measures::sum_of(t.number_out, j); }});
-  add(parts.outflow, {"out", "kg", "where particles leave: their mass",
-                      [](const Told& t, measures::Members j) { return measures::sum_of(t.mass_out, j); }});
+  add(parts.outflow,
+      {"out", "kg", "their mass", [](const Told& t, measures::Members j) { return measures::sum_of(t.mass_out, j); }});
   add(parts.feeding, {"in", "1", "with [[feed]]: particles that have entered since the start",
                       [](const Told& t, measures::Members j) { return measures::sum_of(t.number_in, j); }});
-  add(parts.feeding, {"in", "kg", "with [[feed]]: their mass",
-                      [](const Told& t, measures::Members j) { return measures::sum_of(t.mass_in, j); }});
+  add(parts.feeding,
+      {"in", "kg", "their mass", [](const Told& t, measures::Members j) { return measures::sum_of(t.mass_in, j); }});
   return table;
 }
 

@@ -47,25 +47,24 @@ Table<Bed> bed_table() {
        "where two straight lines through p cross, by least squares over z_0.10 to z_0.80 and above 1.1 bed heights",
        of_profile(bed_height_by_pressure), only_profiles},
       {"pressure_drop", "Pa",
-       "net pressure at the bottom less that at the top, continued linearly from the outer two slabs; of a "
-       "compressible fluid it also carries what the fluid weighs beyond rho_0",
+       "net pressure at the bottom less that at the top, continued linearly from the outer two slabs; with the weight "
+       "of a compressible fluid beyond rho_0",
        pressure_drop_of, also_profiles},
       {"buoyant_weight", "Pa",
-       "of the bed in the fluid, over the cross-section: the pressure drop, in the mean, of a fluidised bed; in a "
-       "tapered column of each layer over its own, which the drop exceeds by some per cent",
+       "of the bed in the fluid, over the cross-section: the mean pressure drop of a fluidised bed; in a tapered "
+       "column of each layer over its own: the drop is some per cent more",
        [](const Bed& bed) { return bed.buoyant_weight; }},
       {"centre", "m", "sum z phi_j / sum phi_j; in the history of particles the mean height of their centres",
        centre_of, and_drift},
       {"mass", "kg", "in the column", [](const Bed& bed, Members species) { return sum_of(bed.mass, species); }},
-      {"top", "m",
-       "bed_height of the species alone, by phi_j: how far up it reaches; in layers the interface to the next species",
+      {"top", "m", "bed_height by phi_j alone: how far up the species reaches; in layers the interface to the next one",
        [](const Bed& bed, Members species) { return bed_height(merged(bed.profile, species)); }, also_profiles},
       {"centre_difference", "1", "centre of species 2 less that of species 1, over bed_height",
        of_profile(centre_difference), only_profiles},
       {"interface", "m",
-       "the profile cut from below into 50 slices of equal solids volume; slices are dropped from below while the next "
-       "differs by more than 0.05 in a share; the top of the last slice within 0.05 of the shares accumulated from the "
-       "first kept one, no higher than the bed",
+       "the profile cut into 50 slices of equal solids volume; from below, slices are dropped while the next differs "
+       "by more than 0.05 in a share; the top of the last slice within 0.05 of the shares accumulated from the first "
+       "kept one, at most the bed height",
        [](const Bed& bed) { return interface_height(bed.profile); }, and_picture},
       {"mixing", "1",
        "1 - mean over the slices of (x - x_mean)^2/(x_mean (1 - x_mean)), mean over species: 1 mixed, 0 separated",

@@ -5,7 +5,7 @@ namespace polybed::tfm {
 measures::Table<Told> history_table(bool compressible, bool openings) {
   measures::Table<Told> table{
       {"max_solids_fraction", "1", "greatest phi of a cell", [](const Told& t) { return t.invariants.most_solids; }},
-      {"min_fraction", "1", "0, or how far the least phi_j of a cell lies below, negative",
+      {"min_fraction", "1", "least phi_j of a cell if negative, else 0",
        [](const Told& t) { return 0 - t.invariants.fraction_below; }},  // not -0
       {"divergence", "1", "max of abs(div J) h / U; not 0 in a compressible fluid",
        [](const Told& t) { return t.invariants.divergence; }}};
@@ -13,10 +13,9 @@ measures::Table<Told> history_table(bool compressible, bool openings) {
     table.push_back(
         {"mass_fluid", "kg", "of a compressible fluid: in the column", [](const Told& t) { return t.fluid_mass; }});
     table.push_back({"fluid_in", "kg",
-                     "of a compressible fluid: in through the sides and the distributor, less what a [[discharge]] "
-                     "draws off there, since the start",
+                     "of a compressible fluid: in through sides and distributor since the start, less [[discharge]]",
                      [](const Told& t) { return t.account.in; }});
-    table.push_back({"fluid_out", "kg", "of a compressible fluid: out at the top and through the sides since the start",
+    table.push_back({"fluid_out", "kg", "of a compressible fluid: out through top and sides since the start",
                      [](const Told& t) { return t.account.out; }});
   }
   if (openings) {

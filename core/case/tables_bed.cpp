@@ -22,84 +22,76 @@ Table column_table() {
       "column", &Scene::column,
       {
           key(&Column::shape, "shape",
-              help("of the cross-section. cylinder: upright and round, size = [diameter, diameter, height]; "
-                   "axisymmetric: the same in two dimensions, everything alike all around the axis, size = [radius, "
-                   "height], for the TFM")),
+              help("cylinder: upright and round, size = [diameter, diameter, height]; axisymmetric: the same in two "
+                   "dimensions, size = [radius, height], for the TFM")),
           key(&Column::given_size, "size", dimension::length, above(0, 1e3), Mark::required,
-              help("width, height; three numbers make it 3-D: width, depth, height")),
+              help("width, height; in 3-D width, depth, height")),
           key(&Column::given_cells, "cells", range(1, 1e6), Mark::required,
-              help("number of cells along each direction of size")),
+              help("number of cells in each direction of size")),
           key(&Column::profile, "profile", dimension::length, above(0, 1e3), Mark::by_height,
-              help("diameter of a round column over its height, linear between the pairs [height, diameter], from 0 to "
-                   "the height of the column; two pairs at one height are a step; size has the largest diameter, or "
-                   "half of it")),
+              help("diameter of a round column in pairs [height, diameter] from 0 to its height, linear between; two "
+                   "pairs at one height are a step; size has the largest diameter, or half of it")),
           key(&Column::depth, "depth", dimension::length, above(0, 1e3),
               help("of a 2-D column; default: twice the largest diameter and twice dem.skin")),
-          key(&Column::sides, "sides",
-              help("walls: no slip for the fluid, free slip for solids unless said; or joined")),
-          key(&Column::ends, "ends", help("bottom and top; joined for the DEM only, without a fluid")),
+          key(&Column::sides, "sides", help("walls (fluid: no slip; solids: tfm.solids_wall), or joined")),
+          key(&Column::ends, "ends", help("bottom and top; joined in the DEM only, without a fluid")),
           key(&Column::gravity, "gravity", dimension::acceleration, range(0, 1e3), help("acceleration of gravity")),
           key(&Column::gravity_direction, "gravity_direction", range(-1e6, 1e6),
-              help("of gravity, of any length, in the order of size: along width and height, or width, depth "
-                   "and height; default: down; for the TFM another one needs column.closed = true or inlet.at = "
-                   "\"top\", and walls")),
+              help("direction in the order of size, of any length; default: down; another one in the TFM needs walls, "
+                   "and column.closed = true or inlet.at = \"top\"")),
           key(&Column::outlet, "outlet",
-              help("top of the column: a screen that holds solids, or open to them: they leave and are counted")),
+              help("top of the column: a screen stops solids; through an open one they leave and are counted")),
           key(&Column::closed, "closed", help("walls all round: no inlet and no outlet")),
       });
 }
 
 Table fluid_table() {
-  return table(
-      "fluid", &Scene::fluid,
-      {
-          key(&Fluid::name, "name",
-              help("water and air know density and viscosity from the temperature; any other fluid needs both, "
-                   "and may go without a name; none: particles without a fluid, for the DEM only")),
-          key(&Fluid::temperature, "temperature", dimension::temperature, above(0, 5000),
-              help("water 0 to 40 degC, air 200 to 1000 K")),
-          key(&Fluid::density, "density", dimension::density, above(0, 1e5), help("rho_f")),
-          key(&Fluid::viscosity, "viscosity", dimension::viscosity, above(0, 1e6), help("mu")),
-          key(&Fluid::equation_of_state, "equation_of_state",
-              help("how density depends on pressure; a compressible fluid carries sound"),
-              equation("tait: P + B = (P_out + B)(rho/rho_0)^n; ideal_gas: P = rho R T, T fixed")),
-          key(&Fluid::outlet_pressure, "outlet_pressure", dimension::pressure, range(1, 1e9),
-              help("P_out, absolute, at the top of the column; a density given is that at this pressure, and "
-                   "air's follows from it")),
-          key(&Fluid::tait_stiffness, "tait_stiffness", dimension::pressure, range(1, 1e13),
-              help("B of equation_of_state = tait"), equation("c^2 = n (P + B)/rho")),
-      });
+  return table("fluid", &Scene::fluid,
+               {
+                   key(&Fluid::name, "name",
+                       help("the properties of water and air follow from the temperature; any other fluid, also "
+                            "without a name, needs both; none: dry particles, for the DEM only")),
+                   key(&Fluid::temperature, "temperature", dimension::temperature, above(0, 5000),
+                       help("water 0 to 40 degC, air 200 to 1000 K")),
+                   key(&Fluid::density, "density", dimension::density, above(0, 1e5), help("rho_f")),
+                   key(&Fluid::viscosity, "viscosity", dimension::viscosity, above(0, 1e6), help("mu")),
+                   key(&Fluid::equation_of_state, "equation_of_state",
+                       help("how density depends on pressure; a compressible fluid carries sound"),
+                       equation("tait: P + B = (P_out + B)(rho/rho_0)^n; ideal_gas: P = rho R T, T fixed")),
+                   key(&Fluid::outlet_pressure, "outlet_pressure", dimension::pressure, range(1, 1e9),
+                       help("P_out, absolute, at the top of the column: a given density is at this pressure; the "
+                            "density of air follows from it")),
+                   key(&Fluid::tait_stiffness, "tait_stiffness", dimension::pressure, range(1, 1e13),
+                       help("B of equation_of_state = tait"), equation("c^2 = n (P + B)/rho")),
+               });
 }
 
 Table species_table() {
   return table(
       "species", &Scene::species,
       {
-          key(&Species::name, "name", Mark::required, help("of the species; names columns and datasets")),
+          key(&Species::name, "name", Mark::required, help("names columns and datasets")),
           key(&Species::diameter, "diameter", dimension::length, range(1e-8, 1), Mark::given,
-              help("D_j of its spheres; or give a distribution")),
-          within(&Species::sizes,
-                 key(&SizeDistribution::kind, "distribution", Mark::replaced,
-                     help("of sizes by volume, in place of one diameter: it becomes the species name.1, name.2, ... "
-                          "from fine to coarse, which have its moments"),
-                     equation("sum x_j D_j^k = integral X D^k dD, k = -N ... N-1"))),
+              help("D_j; or give a distribution")),
+          within(&Species::sizes, key(&SizeDistribution::kind, "distribution", Mark::replaced,
+                                      help("of sizes by volume, instead of one diameter: becomes the species name.1, "
+                                           "name.2, ... from fine to coarse, with its moments"),
+                                      equation("sum x_j D_j^k = integral X D^k dD, k = -N ... N-1"))),
           within(&Species::sizes, key(&SizeDistribution::median, "median", dimension::length, range(1e-8, 1),
                                       Mark::replaced, help("lognormal: half of the volume is finer"))),
-          within(&Species::sizes,
-                 key(&SizeDistribution::mean, "mean", dimension::length, range(1e-8, 1), Mark::replaced,
-                     help("lognormal: mean diameter by volume, in place of the median"),
-                     equation("mean = median exp(deviation^2/2)"))),
+          within(&Species::sizes, key(&SizeDistribution::mean, "mean", dimension::length, range(1e-8, 1),
+                                      Mark::replaced, help("lognormal: mean diameter by volume, instead of the median"),
+                                      equation("mean = median exp(deviation^2/2)"))),
           within(&Species::sizes, key(&SizeDistribution::deviation, "deviation", above(0, 1), Mark::replaced,
                                       help("lognormal: standard deviation of ln D"))),
-          within(&Species::sizes,
-                 key(&SizeDistribution::sieves, "sieves", range(0, 1), Mark::by_size, Mark::replaced,
-                     help("a table [[opening, share of the volume retained on it], ...]: openings rise, the last "
-                          "retains nothing, shares sum to 1"))),
+          within(&Species::sizes, key(&SizeDistribution::sieves, "sieves", range(0, 1), Mark::by_size, Mark::replaced,
+                                      help("[[opening, share of the volume retained on it], ...]: openings rise, the "
+                                           "last retains nothing, shares sum to 1"))),
           within(&Species::sizes, key(&SizeDistribution::classes, "classes", range(1, 10), Mark::replaced,
-                                      help("N: number of species that stand for the distribution"))),
+                                      help("N: number of species that represent the distribution"))),
           key(&Species::density, "density", dimension::density, range(1e-3, 1e16), Mark::required, help("rho_j")),
           key(&Species::max_packing, "max_packing", range(0.3, 0.9),
-              help("P_j: random packing of this species alone, for tfm.max_packing = fedors_landel | yu_standish")),
+              help("P_j: random packing of this species alone, for tfm.max_packing = fedors_landel, yu_standish")),
           key(&Species::youngs_modulus, "youngs_modulus", dimension::pressure, above(0, 1e13),
               help("else that of [dem]")),
           key(&Species::poisson_ratio, "poisson_ratio", range(0, 0.5), help("else that of [dem]")),
@@ -115,81 +107,73 @@ Table bed_table() {
           key(&Bed::volume_share, "volume_share", range(0, 1),
               help("x_j, share of each species in the volume of the solids; sums to 1")),
           key(&Bed::static_height, "static_height", dimension::length, range(0, 1e3), Mark::given,
-              help("of the settled bed; 0: the fluid alone; follows from [[layer]], as volume_share does")),
+              help("of the settled bed; 0: fluid alone; [[layer]] replaces it and volume_share")),
           key(&Bed::solids_fraction, "solids_fraction", above(0, 0.9), Mark::given,
-              help("of the settled bed, and of each [[layer]] that gives none")),
+              help("of the settled bed, and of each [[layer]] without its own")),
           key(&Bed::start_fraction, "start_solids_fraction", above(0, 0.9),
-              help("of the bed at the start, with the mass of the settled bed; default: solids_fraction. A "
-                   "[[layer]] starts no denser than it settles")),
+              help("of the bed at the start, with the mass of the settled bed; default: solids_fraction. A [[layer]] "
+                   "starts at most as dense as it settles")),
           key(&Bed::particles, "particles", range(0, 1e12),
               help("numbers of particles of each species, instead of volume_share and static_height")),
           key(&Bed::start, "start",
-              help("the bed at time zero; layered: as [[layer]] says, or without it in the order of the species, the "
-                   "first at the bottom, the size classes of a species as one layer; "
-                   "settled: in equilibrium; for the DEM only: random: anywhere in the column, list: particles "
-                   "one by one, SI, columns species, x, y, z and if not zero vx, vy, vz, wx, wy, wz, y upward")),
+              help("layered: by [[layer]], else in the order of the species from the bottom, size classes together; "
+                   "settled: in equilibrium; in the DEM also random: anywhere in the column, and list: one by one, SI, "
+                   "columns species, x, y, z and if not zero vx, vy, vz, wx, wy, wz, y upward")),
           key(&Bed::layer, "layer", range(1, 15),
-              help(
-                  "of start = \"layered\": number of the layer of each species, 1 at the bottom; species of one number "
-                  "are mixed; default: a layer for each species")),
+              help("of start = \"layered\": layer of each species, 1 at the bottom; species with one number are mixed; "
+                   "default: a layer for each")),
           key(&Bed::seed, "seed", range(0, 9.2e18), help("of random numbers")),
           key(&Bed::perturbation, "perturbation", range(0, 0.1),
-              help("share by which the solids fractions of a mixed start differ from cell to cell at random, so that a "
-                   "bed of several cells across need not wait for round-off to break up; two-fluid model; 0: none")),
+              help("random difference of the solids fractions of a mixed start from cell to cell, so that the bed can "
+                   "break its symmetry; TFM; 0: none")),
       });
 }
 
 Table layer_table() {
-  return table(
-      "layer", &Scene::layers,
-      {
-          key(&Layer::species, "species", Mark::replaced,
-              help("name of the only species of a part of the bed at the start; of one with a distribution: all "
-                   "classes, by their shares. Each [[layer]] lies on those before it, the first on the bottom")),
-          key(&Layer::volume_share, "volume_share", range(0, 1),
-              help("x_j, share of each species in the volume of its solids, instead of species; sums to 1")),
-          key(&Layer::height, "height", dimension::length, above(0, 1e3), Mark::required,
-              help("of the settled layer; bed.start_solids_fraction makes it start higher")),
-          key(&Layer::solids_fraction, "solids_fraction", above(0, 0.9),
-              help("of the settled layer; default: bed.solids_fraction")),
-          key(&Layer::from, "from", dimension::length, range(0, 1e3),
-              help("low corner of its cross-section: [x], or [x, z] (width, depth) in three dimensions; default: the "
-                   "whole cross-section of the column")),
-          key(&Layer::to, "to", dimension::length, range(0, 1e3), help("high corner")),
-      });
+  return table("layer", &Scene::layers,
+               {
+                   key(&Layer::species, "species", Mark::replaced,
+                       help("the only species of this layer; all classes of a distribution, by their shares. Each "
+                            "[[layer]] lies on those before it")),
+                   key(&Layer::volume_share, "volume_share", range(0, 1),
+                       help("x_j, share of each species in its solids, instead of species; sums to 1")),
+                   key(&Layer::height, "height", dimension::length, above(0, 1e3), Mark::required,
+                       help("of the settled layer; bed.start_solids_fraction makes it start higher")),
+                   key(&Layer::solids_fraction, "solids_fraction", above(0, 0.9),
+                       help("of the settled layer; default: bed.solids_fraction")),
+                   key(&Layer::from, "from", dimension::length, range(0, 1e3),
+                       help("low corner across: [x], in 3-D [x, z] (width, depth); default: the whole column")),
+                   key(&Layer::to, "to", dimension::length, range(0, 1e3), help("high corner")),
+               });
 }
 
 Table inlet_table() {
-  return table(
-      "inlet", &Scene::inlet,
-      {
-          key(&Inlet::superficial_velocity, "superficial_velocity", dimension::velocity, range(-1e3, 1e3),
-              help("a velocity, or a table [[time, velocity], ...]: linear between, constant beyond; two equal "
-                   "times make a jump")),
-          key(&Inlet::flow_rate, "flow_rate", dimension::volume_rate, range(-1e4, 1e4),
-              help(
-                  "in place of the velocity: volume over time through the whole bottom, a flow or a table as there; in "
-                  "two dimensions with column.depth")),
-          key(&Inlet::at, "at",
-              help("bottom: the flow is even over the bottom, the pressure is given at the top; top: the flow is even "
-                   "over both ends, for a fluid that enters there (velocity below 0)")),
-      });
+  return table("inlet", &Scene::inlet,
+               {
+                   key(&Inlet::superficial_velocity, "superficial_velocity", dimension::velocity, range(-1e3, 1e3),
+                       help("a velocity, or a table [[time, velocity], ...]: linear between, constant beyond; two "
+                            "equal times make a jump")),
+                   key(&Inlet::flow_rate, "flow_rate", dimension::volume_rate, range(-1e4, 1e4),
+                       help("instead of the velocity: through the whole bottom, a number or table likewise; in 2-D "
+                            "with column.depth")),
+                   key(&Inlet::at, "at",
+                       help("bottom: even flow over the bottom, pressure given at the top; top: even flow over both "
+                            "ends, for a fluid that enters there (velocity below 0)")),
+               });
 }
 
 Table jet_table() {
   return table(
       "jet", &Scene::jets,
       {
-          key(&Jet::at, "at",
-              help("bottom: a part of it with a velocity of its own; or a part of a side, from x = 0 the left one, in "
-                   "three dimensions from depth 0 the front one")),
+          key(&Jet::at, "at", help("part of the bottom, or of a side: left is x = 0, front depth 0")),
           key(&Jet::from, "from", dimension::length, range(0, 1e3), Mark::required,
-              help("low corner: of the bottom [x], or [x, z] (width, depth) in three dimensions; of a side its height "
-                   "[y], or in three dimensions [z, y] left and right, [x, y] front and back")),
+              help("low corner: of the bottom [x], in 3-D [x, z] (width, depth); of a side [y], in 3-D left and right "
+                   "[z, y], front and back [x, y]")),
           key(&Jet::to, "to", dimension::length, range(0, 1e3), Mark::required, help("high corner")),
           key(&Jet::superficial_velocity, "superficial_velocity", dimension::velocity, range(-1e3, 1e3), Mark::required,
-              help("over the jet's own area, into the column, on the bottom in place of inlet.superficial_velocity; a "
-                   "velocity or a table as there")),
+              help("over the jet's own area, into the column, on the bottom instead of the inlet's; a velocity or a "
+                   "table as there")),
       });
 }
 
@@ -198,36 +182,35 @@ Table feed_table() {
       "feed", &Scene::feeds,
       {
           key(&Feed::species, "species", Mark::required,
-              help("name of the species that is fed; of one with a distribution: all classes, by their shares")),
+              help("the species that is fed; all classes of a distribution, by their shares")),
           key(&Feed::at, "at", help("end or side of the column")),
           key(&Feed::superficial_velocity, "superficial_velocity", dimension::velocity, range(0, 1e3), Mark::required,
-              help("volume of solids per area of the feed and time, into the column, besides the fluid of the "
-                   "inlet; a velocity or a table as there")),
+              help("volume of solids per area of the feed and time, into the column, added to the fluid of the inlet; "
+                   "a velocity or a table as there")),
           key(&Feed::velocity, "velocity", dimension::velocity, above(0, 1e3), Mark::required,
-              help("of the particles as they enter; superficial_velocity over it is their volume fraction, in polybed "
-                   "dem at most 0.35")),
+              help("of the entering particles; superficial_velocity over it is their volume fraction, in the DEM at "
+                   "most 0.35")),
           key(&Feed::from, "from", dimension::length, range(0, 1e3),
-              help("low corner of the part of the end or side, as of a jet; default: all of it")),
+              help("low corner, as of a jet; default: all of the end or side")),
           key(&Feed::to, "to", dimension::length, range(0, 1e3), help("high corner")),
       });
 }
 
 Table discharge_table() {
-  return table(
-      "discharge", &Scene::discharges,
-      {
-          key(&Discharge::at, "at", Mark::required,
-              help("bottom or side through which fluid and solids leave together, as they are in the cells next to it; "
-                   "in polybed dem particles leave through a hole there with a sharp rim, also where nothing flows")),
-          key(&Discharge::superficial_velocity, "superficial_velocity", dimension::velocity, range(0, 1e3),
-              Mark::required,
-              help("volume of the mixture per area of the discharge and time, out of the column; a velocity or a table "
-                   "as of the inlet. Where more enters, the rest leaves at the top, also with inlet.at = \"top\". "
-                   "Without a fluid it has no effect")),
-          key(&Discharge::from, "from", dimension::length, range(0, 1e3),
-              help("low corner of the part of the bottom or side, as of a jet; default: all of it")),
-          key(&Discharge::to, "to", dimension::length, range(0, 1e3), help("high corner")),
-      });
+  return table("discharge", &Scene::discharges,
+               {
+                   key(&Discharge::at, "at", Mark::required,
+                       help("bottom or side through which fluid and solids leave together, as they are in the cells "
+                            "next to it; in the DEM a hole with a sharp rim, also where nothing flows")),
+                   key(&Discharge::superficial_velocity, "superficial_velocity", dimension::velocity, range(0, 1e3),
+                       Mark::required,
+                       help("volume of the mixture per area of the discharge and time, out of the column; a velocity "
+                            "or a table as of the inlet. What enters in excess leaves at the top, also with inlet.at = "
+                            "\"top\". No effect without a fluid")),
+                   key(&Discharge::from, "from", dimension::length, range(0, 1e3),
+                       help("low corner, as of a jet; default: all of the bottom or side")),
+                   key(&Discharge::to, "to", dimension::length, range(0, 1e3), help("high corner")),
+               });
 }
 
 Table wall_table() {
@@ -235,9 +218,9 @@ Table wall_table() {
       "wall", &Scene::walls,
       {
           key(&InnerWall::shape, "shape",
-              help("of a wall inside the column for particles; needs fluid.name = \"none\". flat: across the whole "
-                   "depth; cone: about the upright axis of the column, cut off at both ends; cylinder: a cone of one "
-                   "diameter. What is placed at the start lies above all walls")),
+              help("of a wall inside the column, for dry particles. flat: as deep as the column; cone: about its "
+                   "upright axis, cut off at both ends; cylinder: a cone of one diameter. Particles start above all "
+                   "walls")),
           key(&InnerWall::from, "from", dimension::length, range(0, 1e3), Mark::required,
               help("one end: [x, y] (width, height) of a flat wall, [diameter, height] of a cone or cylinder")),
           key(&InnerWall::to, "to", dimension::length, range(0, 1e3), Mark::required, help("the other end")),

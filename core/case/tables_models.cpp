@@ -10,42 +10,38 @@ Table tfm_table() {
       "tfm", &Scene::tfm,
       {
           key(&Tfm::integrator, "integrator",
-              help("imex (drag implicit, the rest explicit) for a bed fluidised by a liquid, implicit for gas, "
-                   "compressible fluids and settling, explicit where there is no drag; auto chooses so")),
+              help("imex (drag implicit, the rest explicit) for liquid beds, implicit for gas, compressible fluids and "
+                   "settling, explicit without drag; auto chooses so")),
           key(&Tfm::follow_bed, "follow_bed",
-              help("ask the equations of the solids in the rows that hold solids, and eight above, not in the whole "
-                   "column; explicit and imex steps only")),
+              help("solve for the solids only in the rows that contain them and eight above; explicit and imex")),
           key(&Tfm::rtol, "rtol", range(1e-12, 0.1), help("relative tolerance of the time integration")),
           key(&Tfm::form, "form",
-              help("where the gradient of the pressure acts: A: on every phase by its volume; B: on the fluid alone, "
-                   "with the net force on particles (drag over voidage, of one species) in place of the drag; the same "
-                   "for a uniform bed in balance, other waves and bubbles"),
+              help("the pressure gradient acts, A: on every phase by its volume; B: on the fluid alone, with the net "
+                   "force on particles (drag over voidage, for one species) instead of the drag: the same uniform bed, "
+                   "other waves and bubbles"),
               equation("B: b_j + sum phi_k b_k/eps in place of b_j, no grad p in dU_j/dt")),
           key(&Tfm::flux, "flux", help("solids fractions at faces: second order with a limiter, or first order")),
-          shared<Tfm>(
-              &Scene::scheme,
-              key(&FluidScheme::momentum, "momentum",
-                  help("convection of velocities, in conservative form: of first order, or of second with a limiter; "
-                       "auto: conservative, for particles conservative_limited"))),
+          shared<Tfm>(&Scene::scheme, key(&FluidScheme::momentum, "momentum",
+                                          help("convection of velocities, conservative: of first order, or of second "
+                                               "with a limiter; auto: conservative, in the DEM conservative_limited"))),
           key(&Tfm::solids_wall, "solids_wall",
-              help("velocity of the solids along walls; johnson_jackson: partial slip, with a viscosity of the "
-                   "solids"),
+              help("solids at walls; johnson_jackson: partial slip, with a viscosity of the solids"),
               equation("johnson_jackson: mu_s dU_t/dn = -[pi sqrt(3 theta) s rho phi g0/(6 phi_max) + p_f "
                        "tan(delta_w)/abs(U_t)] U_t")),
           key(&Tfm::max_packing, "max_packing", above(0, 1),
-              help("phi_max of the frictional pressure: a number; auto: the settled bed then has "
-                   "bed.solids_fraction; or of the mixture in each cell, from species.max_packing")),
+              help("phi_max of the frictional pressure: a number; auto: the settled bed then has bed.solids_fraction; "
+                   "or of the mixture in each cell, from species.max_packing")),
           key(&Tfm::frictional_pressure, "frictional_pressure", dimension::pressure, above(0, 1e6), help("Fr"),
               equation("p_f = Fr (phi - phi_min)^2/(phi_max - phi)^5")),
           key(&Tfm::frictional_onset, "frictional_onset", above(0, 0.9),
               help("phi_min, above which solids press on each other"),
               equation("p_f = Fr (phi - phi_min)^2/(phi_max - phi)^5")),
           key(&Tfm::bulk_viscosity, "bulk_viscosity", range(0, 10),
-              help("alpha; damps elastic waves of the packed bed; 0 is off; default: 1 over the number of "
-                   "directions with more than one cell"),
+              help("alpha; damps elastic waves of the packed bed; 0 is off; default: 1 over the number of directions "
+                   "with more than one cell"),
               equation("p_s = p_f - alpha rho_s c_s h sum phi_j div U_j")),
           key(&Tfm::viscosity_cap, "viscosity_cap", dimension::viscosity, above(0, 1e6),
-              help("greatest frictional viscosity, which solids at rest have: they creep")),
+              help("greatest frictional viscosity: solids at rest creep")),
           key(&Tfm::least_shear_rate, "least_shear_rate", dimension::rate, above(0, 1e6),
               help("gamma_0 of the frictional viscosity"), equation("abs(gamma) = sqrt(2 D':D' + gamma_0^2)")),
           key(&Tfm::kinetic_theory, "kinetic_theory", help("viscosity and dissipation of solids_stress = kinetic")),
@@ -55,16 +51,16 @@ Table tfm_table() {
           key(&Tfm::start_temperature, "start_temperature", dimension::speed_squared, range(0, 1e6),
               help("theta_j at the start, for granular_temperature = transported")),
           key(&Tfm::specularity, "specularity", range(0, 1),
-              help("s: share of tangential momentum that a collision with the wall takes; solids_wall = "
+              help("s: share of the tangential momentum that a collision passes to the wall; solids_wall = "
                    "johnson_jackson with kinetic stress")),
           key(&Tfm::wall_friction, "wall_friction", range(0, 2), help("tan(delta_w) of solids_wall = johnson_jackson")),
           key(&Tfm::exchange_pressure, "exchange_pressure", dimension::per_pressure, range(0, 1e9),
               help("C_s: contact friction between species in a packed bed"),
               equation("K_jk = ... + C_s p_s phi_j phi_k/phi^2")),
           key(&Tfm::fixed_step, "fixed_step", dimension::time, above(0, 1e3),
-              help("steps of one length without error control, for verification; explicit and imex only")),
+              help("length of steps without error control, for verification; explicit and imex")),
           key(&Tfm::pressure_tolerance, "pressure_tolerance", range(1e-13, 0.1),
-              help("relative residual of the pressure's equation; default: the smaller of 1e-4 and rtol/10")),
+              help("relative residual of the pressure equation; default: the smaller of 1e-4 and rtol/10")),
       });
 }
 
@@ -74,43 +70,40 @@ Table dem_table() {
       {
           key(&Dem::steps_per_contact, "steps_per_contact", range(5, 1e5), help("time steps in one contact")),
           key(&Dem::youngs_modulus, "youngs_modulus", dimension::pressure, above(0, 1e13),
-              help("E of all species that do not say otherwise; default: 5 MPa, or the least at which impacts "
-                   "at dem.greatest_speed overlap by no more than dem.max_overlap")),
+              help("E of species without their own; default: 5 MPa, or the least at which impacts at "
+                   "dem.greatest_speed overlap by no more than dem.max_overlap")),
           key(&Dem::poisson_ratio, "poisson_ratio", range(0, 0.5), help("likewise")),
           shared<Dem>(&Scene::material, key(&Material::friction, "friction", range(0, 10),
-                                            help("likewise; the TFM's species exchange reads it too"))),
+                                            help("likewise; also for the TFM's species exchange"))),
           shared<Dem>(&Scene::material, key(&Material::restitution, "restitution", above(0, 1),
-                                            help("likewise; the TFM's species exchange reads it too"))),
+                                            help("likewise; also for the TFM's species exchange"))),
           key(&Dem::fluid_every, "fluid_every", range(1, 1e6),
-              help("solid steps per fluid step; default: 16, or as many as move the fluid by no more than half a cell "
-                   "at the velocity between packed particles of what flows in")),
+              help("particle steps per fluid step; default: 16, or as many as move the fluid by at most half a cell at "
+                   "its velocity between packed particles")),
           key(&Dem::kernel, "kernel",
-              help("how particles are averaged for the fluid: bilinear in the cells around them; diffusion: "
-                   "with a width of its own; auto: diffusion where a cell is smaller than 1.5 of the largest "
-                   "diameters, for fewer than 10 particles 5")),
+              help("averaging of particles for the fluid: bilinear over the cells around them; diffusion: with its own "
+                   "width; auto: diffusion in cells below 1.5 largest diameters, for fewer than 10 particles 5")),
           key(&Dem::kernel_width, "kernel_width", dimension::length, above(0, 10),
-              help("of the diffusion kernel, full width at half height; default: 4 of the largest diameters, of "
-                   "fewer than 10 particles 6")),
+              help("full width of the diffusion kernel at half height; default: 4 largest diameters, for fewer than 10 "
+                   "particles 6")),
           key(&Dem::own_share, "own_share",
-              help("what a particle counts for in the averages that its drag follows from, less the neighbours "
-                   "that it keeps away: kept as the thesis has it, or removed, as drag laws are made of means "
-                   "of the mixture")),
-          shared<Dem>(&Scene::bed, key(&Bed::held, "held",
-                                       help("particles stay where they are: a fixed bed, for its pressure drop"))),
+              help("a particle's own share in the averages that set its drag, less the neighbours that it keeps away: "
+                   "kept as in the thesis, or removed, as drag laws are made from means of the mixture")),
+          shared<Dem>(&Scene::bed,
+                      key(&Bed::held, "held", help("particles do not move: a fixed bed, for its pressure drop"))),
           key(&Dem::fluid_ranks, "fluid_ranks",
-              help("on several ranks: each solves for the whole fluid, and particles have the same bits on any "
-                   "number of ranks; shared: each solves for a block of it, to the solver's tolerance; auto: "
-                   "shared from 20000 cells on")),
+              help("on several ranks, each: every rank solves for the whole fluid, with the same bits on any number; "
+                   "shared: each solves for a block, to the solver's tolerance; auto: shared from 20000 cells on")),
           key(&Dem::tangential, "tangential",
               help("tangential force with contact = hertz_mindlin: hdd after Di Renzo and Di Maio, mindlin "
-                   "incremental, mindlin_deresiewicz with partial slip; linear: a spring of 2/7 k_n"),
+                   "incremental, mindlin_deresiewicz with partial slip; linear: spring of 2/7 k_n"),
               equation("hdd: F_t = -(2/3) 8 G* a xi - c_t v_t")),
           key(&Dem::tail, "tail",
-              help("near separation the dashpot would pull: clip: F_n >= 0, with the damping that then realises "
-                   "the restitution; keep: it pulls")),
+              help("near separation the dashpot would pull: clip: F_n >= 0, with the damping that then gives the "
+                   "restitution; keep: it pulls")),
           key(&Dem::integrator, "integrator",
-              help("thesis: forces from half-step velocities; synchronised: velocities at the time of the "
-                   "positions; auto: synchronised with friction and a ratio of diameters of at least 3")),
+              help("thesis: forces from half-step velocities; synchronised: from velocities at the time of the "
+                   "positions; auto: synchronised with friction and diameters in a ratio of at least 3")),
           key(&Dem::normal_stiffness, "normal_stiffness", dimension::stiffness, above(0, 1e12),
               help("k_n of contact = linear")),
           key(&Dem::rolling_friction, "rolling_friction", range(0, 10),
@@ -127,44 +120,39 @@ Table dem_table() {
               help("expected of any particle: sets the time step")),
           key(&Dem::start_speed, "start_speed", dimension::velocity, range(0, 1e5),
               help("root mean square of each component of random velocities at the start")),
-          shared<Dem>(
-              &Scene::column,
-              key(&Column::shear_rate, "shear_rate", dimension::rate, range(-1e6, 1e6),
-                  help("dv_x/dy of a sheared box (Lees and Edwards): needs column.sides and column.ends periodic "
-                       "and no gravity"))),
+          shared<Dem>(&Scene::column, key(&Column::shear_rate, "shear_rate", dimension::rate, range(-1e6, 1e6),
+                                          help("dv_x/dy of a sheared box (Lees and Edwards): needs periodic "
+                                               "column.sides and column.ends, no gravity"))),
           key(&Dem::opening, "opening", dimension::length, above(0, 100),
-              help("width of an opening in the middle of the bottom, through which particles fall out and are "
-                   "counted: a slot as deep as the column, or with three numbers in column.size a round hole; "
-                   "needs fluid.name = \"none\"")),
-          key(&Dem::ledger, "ledger", help("account of the energy: kinetic, elastic, potential, dissipated, work")),
+              help("width of an opening in the middle of the bottom, for dry particles, which are counted: a slot as "
+                   "deep as the column, in 3-D a round hole")),
+          key(&Dem::ledger, "ledger", help("energy balance: kinetic, elastic, potential, dissipated, work")),
           key(&Dem::cohesion_energy, "cohesion_energy", dimension::surface_energy, range(0, 1e6),
-              help("W of cohesion of the kinds DMT and JKR, J/m2"),
-              equation("pull-off: DMT 2 pi W R*, JKR 1.5 pi W R*")),
+              help("W of cohesion = dmt, jkr, J/m2"), equation("pull-off: DMT 2 pi W R*, JKR 1.5 pi W R*")),
           shared<Dem>(&Scene::material,
                       key(&Material::hamaker_constant, "hamaker_constant", dimension::energy, range(0, 1e-6),
                           help("A of the van der Waals force"), equation("F = A R*/(6 z^2)"))),
           key(&Dem::cohesion_gap, "cohesion_gap", dimension::length, above(0, 1),
-              help("z_0, cut-off of the van der Waals force: nearer than this it grows no more"),
+              help("z_0, gap below which the van der Waals force grows no more"),
               equation("F = A R*/(6 max(z, z_0)^2)")),
           key(&Dem::asperity_radius, "asperity_radius", dimension::length, above(0, 1),
-              help("R* of the van der Waals force of rough surfaces; default: that of the spheres"),
+              help("R* of the van der Waals force of rough surfaces; default: of the spheres"),
               equation("F = A R*/(6 max(z, z_0)^2)")),
           shared<Dem>(&Scene::material,
                       key(&Material::surface_tension, "surface_tension", dimension::stiffness, above(0, 10),
-                          help("gamma of a liquid that wets particles in a gas, for liquid bridges"),
+                          help("gamma of the liquid of liquid bridges, in a gas"),
                           equation("F = 2 pi R gamma cos(theta)/(1 + 1.05 s + 2.5 s^2), s = gap sqrt(R/V), R = 2 R*"))),
           shared<Dem>(&Scene::material, key(&Material::contact_angle, "contact_angle", range(0, 90),
                                             help("theta of that liquid on particles and walls, in degrees"),
                                             equation("bridges break at a gap of (1 + theta/2) V^(1/3)"))),
-          shared<Dem>(
-              &Scene::material,
-              key(&Material::liquid_fraction, "liquid_fraction", range(0, 0.1),
-                  help("volume of that liquid on each particle over the particle's own; a bridge takes the part "
-                       "of both films that each sphere covers as seen from the other's centre"),
-                  equation("V = sum of a_i liquid_fraction V_i, a_i = [1 - sqrt(1 - (R_j/(R_i + R_j))^2)]/2"))),
+          shared<Dem>(&Scene::material,
+                      key(&Material::liquid_fraction, "liquid_fraction", range(0, 0.1),
+                          help("volume of that liquid on a particle over the particle's; a bridge gets the part of "
+                               "both films that each sphere covers, seen from the other's centre"),
+                          equation("V = sum of a_i liquid_fraction V_i, a_i = [1 - sqrt(1 - (R_j/(R_i + R_j))^2)]/2"))),
           shared<Dem>(&Scene::material,
                       key(&Material::roughness, "roughness", dimension::length, above(0, 1),
-                          help("of surfaces: the film between them is not thinner (effects.lubrication = film)"),
+                          help("of surfaces: least thickness of the film between them (effects.lubrication = film)"),
                           equation("F = -6 pi mu R*^2 v_n/max(h, roughness)"))),
       });
 }
@@ -173,8 +161,8 @@ Table inversion_table() {
   return table("inversion", &Scene::inversion,
                {
                    key(&Inversion::measured, "measured", dimension::velocity, range(0, 1e3),
-                       help("superficial velocity at which an experiment had the two species change places, or the two "
-                            "that enclose it; printed by polybed inversion, no run reads it")),
+                       help("superficial velocity at which two species changed places in an experiment, or the two "
+                            "that enclose it; polybed inversion prints it, no run reads it")),
                    key(&Inversion::simulated, "simulated", dimension::velocity, range(0, 1e3),
                        help("the same of a published simulation")),
                });
@@ -185,9 +173,9 @@ Table calibrate_table() {
       "calibrate", &Scene::calibrate,
       {
           key(&Calibrate::regime, "regime",
-              help("boxes of polybed calibrate: dry: collisions alone; wet: sheared, with drag towards the flow "
-                   "and films; bed: fluidised; auto: dry where the shear rate times the relaxation time of the "
-                   "slip is 1 or more, else wet")),
+              help("boxes of polybed calibrate: dry: collisions alone; wet: sheared, with drag towards the flow and "
+                   "films; bed: fluidised; auto: dry where the shear rate times the relaxation time of the slip is at "
+                   "least 1, else wet")),
           key(&Calibrate::solids_fraction, "solids_fraction", range(0.01, 0.66),
               help("of the boxes, rising; default: 0.1 to 0.5")),
           key(&Calibrate::restitution, "restitution", range(0.05, 0.9999),
@@ -196,16 +184,16 @@ Table calibrate_table() {
           key(&Calibrate::stokes, "stokes", range(1e-3, 1e4), help("of wet boxes, rising; default: 1, 3, 10"),
               equation("St = rho_p d^2 gamma/mu")),
           key(&Calibrate::share, "share", range(0, 1),
-              help("volume of the second species over that of both, rising; default: spheres of one size, the "
-                   "Sauter diameter of the bed")),
+              help("volume of the second species over both, rising; default: spheres of one size, the Sauter diameter "
+                   "of the bed")),
           key(&Calibrate::particles, "particles", range(100, 1e6), help("of a box")),
           key(&Calibrate::seeds, "seeds", range(1, 100),
-              help("boxes at each point, with other random starts; from 3 on a point of a sheared table gets "
-                   "more, up to 10, while its standard error is above 5 %")),
+              help("boxes at each point, with other random starts; from 3 on a point of a sheared table gets up to 10, "
+                   "while its standard error exceeds 5 %")),
           key(&Calibrate::strain, "strain", range(1, 1e4), help("over which a box is averaged, in 20 blocks")),
           key(&Calibrate::discard_strain, "discard_strain", range(0, 1e4), help("before that")),
           key(&Calibrate::doublings, "doublings", range(0, 10),
-              help("of the averaged strain, at most, while blocks are not independent")),
+              help("of the averaged strain at most, while blocks are not independent")),
           key(&Calibrate::softness, "softness", range(1e-3, 0.2),
               help("of dry boxes: duration of a contact over the time between collisions")),
       });
@@ -217,23 +205,23 @@ Table resolve_table() {
       {
           key(&Resolve::voidage, "voidage", range(0.3, 0.99), help("of the boxes of polybed resolve, one or more")),
           key(&Resolve::motion, "motion",
-              help("of the spheres: held; moving, each species past all others in Stokes flow, for the forces by "
-                   "relative motion; or free, under drag, weight and contacts")),
+              help("of the spheres: held; moving: each species past all others in Stokes flow, for the forces by "
+                   "relative motion; free: under drag, weight and contacts")),
           key(&Resolve::reynolds, "reynolds", range(0, 300),
               help("of the Sauter diameter and the superficial velocity, one or more; 0: Stokes flow")),
           key(&Resolve::cells_per_diameter, "cells_per_diameter", range(6, 200),
               help("of the smallest spheres, on the finest grid")),
           key(&Resolve::grids, "grids", range(1, 3),
-              help("each 1.5 times coarser than the one before; rows are those of the finest, from two on with the "
+              help("each 1.5 times coarser than the one before; rows are from the finest, from two on with the "
                    "difference to the next")),
           key(&Resolve::packings, "packings", range(1, 1000), help("random boxes per row")),
           key(&Resolve::spheres, "spheres", range(1, 1e5), help("in a box, all sizes together")),
           key(&Resolve::precision, "precision", help("of the numbers of the flow: single takes half the memory")),
           key(&Resolve::until, "until", dimension::time, above(0, 1e6),
-              help("simulated time of boxes of free spheres, of which the first third is dropped; default: in which "
-                   "the fastest species, hindered by the others, falls through its box about ten times")),
+              help("simulated time of boxes of free spheres, less the first third; default: the fastest species, "
+                   "hindered by the others, falls through its box about ten times")),
           key(&Resolve::checkpoint_every, "checkpoint_every", dimension::time, above(0, 1e9),
-              help("on the clock, between checkpoints of a box that is not steady yet")),
+              help("wall time between checkpoints of a box that is not steady yet")),
       });
 }
 

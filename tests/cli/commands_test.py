@@ -138,7 +138,7 @@ class Keys(Scratch):
             [["schema", "--markdown"], ["schema"], ["explain", "species.diameter"], ["list"]]))
         for key in keys:
             self.assertIn(key, plain)
-            self.assertIn(f"| `{key.split('.')[-1]}` |", markdown)
+            self.assertIn(f"- `{key.split('.')[-1]}` (", markdown)
         for role, laws in roles.items():
             self.assertTrue(all(name in effects and f"`{name}`" in markdown for name in [role, *laws]))
         self.assertIn("range: at least 1e-08, at most 1 m", words)
