@@ -283,6 +283,7 @@ void CaseRun::finish(const std::string& state) {
     print_end(text);
   }
   if (options_.json) core::print("{}\n", text);
+  (void)core::refusal_of_answer();  // the answer leaves before a picture is drawn
   if (options_.picture) draw();
 }
 

@@ -8,6 +8,7 @@
 #include "app/case_run.hpp"
 #include "app/commands.hpp"
 #include "core/memory.hpp"
+#include "core/numerics/schedule.hpp"
 #include "core/output/json.hpp"
 #include "core/print.hpp"
 #include "dem/observers.hpp"
@@ -104,17 +105,12 @@ class DemRun final : public CaseRun {
   core::Simulation& simulation() override { return model_; }
 
   std::vector<core::Observer> observers() override {
-    return {{"history", *scene_.output.history_every,
-             [&](double t) {
-               observers_->write_history(t);
-               history_at_ = t;
-               judge(observers_->invariants().worst());
-             }},
+    return {{"history", *scene_.output.history_every, [&](double t) { write_row(t); }},
             {"particles", *scene_.output.every, [&](double t) {
                const auto scope = timers_.scope("output");
                observers_->write_particles(t);
                emptied_ = model_.outflow() != nullptr && model_.feeding() == nullptr && model_.particle_count() == 0;
-               if (emptied_ && history_at_ != t) observers_->write_history(t);  // the last row
+               if (emptied_ && core::is_later(t, history_at_)) write_row(t);  // the last one
              }}};
   }
 
@@ -126,6 +122,12 @@ class DemRun final : public CaseRun {
   }
 
   bool is_over() override { return emptied_; }
+
+  void write_row(double t) {
+    observers_->write_history(t);
+    history_at_ = t;
+    judge(observers_->invariants().worst());
+  }
 
   core::ProgressLine line() override {
     const measures::WorstInvariant* energy = observers_->invariants().energy();

@@ -87,7 +87,7 @@ std::unique_ptr<const core::OutputDirectory> take_directory(const fs::path& dire
   const bool began = has_checkpoint(directory) || fs::exists(directory / "history.csv");
   if (fs::exists(directory / "run.json") && began && !options.resume && !options.force)
     throw core::CaseError(
-        fmt::format("{} holds a run already: --resume goes on with it, --force replaces it, -o DIR writes elsewhere",
+        fmt::format("{} contains a run already: --resume goes on with it, --force replaces it, -o DIR writes elsewhere",
                     directory.string()));
   return taken;
 }

@@ -143,7 +143,7 @@ bool Box::rim_is_edge(int axis, const Vector& centre, const Vector& from_rim) co
   return !straight && std::any_of(plates.begin(), plates.end(), [&](const Plate& plate) {
     const InPlane away = plate.to(InPlane{point[0], point[1]});
     return !plate.round && std::hypot(away[0], away[1]) < near &&
-           plate.nearest({point[0], point[1]}) != Plate::Part::face;
+           (axis == 2 || plate.nearest({point[0], point[1]}) != Plate::Part::face);
   });
 }
 

@@ -125,7 +125,8 @@ struct Box {
   /// To a centre from the point that is nearest to it of a face with openings, m: straight in or out, or from the rim;
   /// nothing: the face is whole. A sphere that fits through an opening touches one part of its rim at a time.
   [[nodiscard]] std::optional<Vector> from_opened(int axis, int side, const Vector& centre) const;
-  /// Whether a flat plate ends where a centre is nearest to a rim: its edge pushes, the rim does not push again.
+  /// Whether a flat plate ends where a centre is nearest to a rim, or lies along it: the plate pushes, the rim does not
+  /// push again.
   /// \param from_rim  as of from_opened
   [[nodiscard]] bool rim_is_edge(int axis, const Vector& centre, const Vector& from_rim) const;
   /// Whether a centre is in line with one of the openings that a face has.

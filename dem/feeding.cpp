@@ -12,7 +12,6 @@
 #include "core/numerics/random.hpp"
 #include "core/output/checkpoint.hpp"
 #include "dem/model.hpp"
-#include "measures/particle_profile.hpp"
 
 namespace polybed::dem {
 
@@ -145,7 +144,7 @@ std::int64_t Feeding::choose(const Model& model, double t) {
         if (other) other->add(place);
       Vector v{};
       v[std::size_t(axis_of(feed.at))] = side_of(feed.at) == 1 ? -feed.velocity : feed.velocity;
-      if (model.coupling() != nullptr) coming_.push_back({t, s.radius, feed.velocity});
+      if (model.coupling() != nullptr) coming_.push_back({t, s.radius, feed.velocity, feed.at});
       entering_.push_back({place, {v, 1 / s.mass, {0, 0, 0}, 1 / s.inertia}, {}, next_id_++, feed.species});
       ++feed.entered;
       ++number[std::size_t(feed.species)];
@@ -161,10 +160,6 @@ std::int64_t Feeding::choose(const Model& model, double t) {
   return std::int64_t(entering_.size());
 }
 
-double Feeding::Coming::share(double t) const {
-  return measures::sphere_volume_below(radius, radius - velocity * (t - since), 0) / closures::sphere_volume(radius);
-}
-
 Arrivals Feeding::arrivals(double t) {
   const auto late = std::find_if(coming_.begin(), coming_.end(),
                                  [t](const Coming& one) { return one.velocity * (t - one.since) < 2 * one.radius; });
@@ -176,7 +171,7 @@ Arrivals Feeding::arrivals(double t) {
 Arrivals Feeding::arrivals() const {
   Arrivals now;
   if (!coming_.empty()) now.first = next_id_ - std::int64_t(coming_.size());
-  for (const Coming& one : coming_) now.share.push_back(one.share(seen_at_));
+  for (const Coming& one : coming_) now.of.push_back({one.velocity * (seen_at_ - one.since), one.at});
   return now;
 }
 
@@ -196,7 +191,7 @@ void Feeding::write(core::Checkpoint& checkpoint, const Particles&, const core::
   }
   std::vector<double>& coming = checkpoint.arrays["feed_coming"];
   coming.clear();
-  for (const Coming& one : coming_) coming.insert(coming.end(), {one.since, one.radius, one.velocity});
+  for (const Coming& one : coming_) coming.insert(coming.end(), {one.since, one.radius, one.velocity, double(one.at)});
   checkpoint.numbers["feed_seen_at"] = seen_at_;
   checkpoint.integers["feed_next_id"] = next_id_;
   checkpoint.integers["feed_steps"] = steps;
@@ -230,8 +225,10 @@ void Feeding::read(const Restored& from) {
     tried = checkpoint.array("feed_tried_at");
     coming = checkpoint.array("feed_coming");
     seen_at = checkpoint.number("feed_seen_at");
-    if (coming.size() % 3 != 0 || std::any_of(coming.begin(), coming.end(), [](double x) { return !(x >= 0); }))
-      core::refuse_checkpoint("feed_coming is not a time, a radius and a velocity of each");
+    bool sound = coming.size() % 4 == 0;
+    for (std::size_t n = 0; n < coming.size(); ++n)
+      sound = sound && coming[n] >= 0 && (n % 4 != 3 || coming[n] < double(names(core::ColumnFace{}).size()));
+    if (!sound) core::refuse_checkpoint("feed_coming is not a time, a radius, a velocity and a face of each");
     whole.end()[-4] = checkpoint.count("feed_next_id");
     if (whole.end()[-4] < free_id) core::refuse_checkpoint("feed_next_id is the number of a particle that is there");
     whole.end()[-3] = checkpoint.count("feed_steps");
@@ -246,7 +243,8 @@ void Feeding::read(const Restored& from) {
   coming.resize(std::size_t(whole.end()[-5]));
   core::take_from_first(from.ranks, coming);
   coming_.clear();
-  for (std::size_t n = 0; n < coming.size(); n += 3) coming_.push_back({coming[n], coming[n + 1], coming[n + 2]});
+  for (const double* c = coming.data(); c != coming.data() + coming.size(); c += 4)
+    coming_.push_back({c[0], c[1], c[2], core::ColumnFace(int(c[3]))});
   seen_at_ = seen_at;
   std::fill(number.begin(), number.end(), 0);
   for (std::size_t n = 0; n < count; ++n) {

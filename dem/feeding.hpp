@@ -80,8 +80,7 @@ class Feeding final : public KeptPart {
   /// A particle that comes in.
   struct Coming {
     double since, radius, velocity;  ///< s, m, m/s
-
-    [[nodiscard]] double share(double t) const;
+    core::ColumnFace at;
   };
   static constexpr double never = -1e30;
   [[nodiscard]] bool find_place(std::size_t n, const FeedStrip& strip, Place& place);

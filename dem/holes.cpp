@@ -34,8 +34,9 @@ double gap(const Opening& a, const Opening& b, const Box& box, std::size_t k) {
 }
 
 bool extend_alike(const Opening& a, const Opening& b, const Box& box, std::size_t k) {
+  if (a.half[k] == endless || b.half[k] == endless) return a.half[k] == b.half[k];
   const double near = rounding * box.size[k];
-  return a.half[k] == b.half[k] || (std::abs(a.half[k] - b.half[k]) < near && std::abs(between(a, b, box, k)) < near);
+  return std::abs(a.half[k] - b.half[k]) < near && std::abs(between(a, b, box, k)) < near;
 }
 
 /// Axis along which two holes of a face lie side by side and share an edge, or a part of it; 3: none.
@@ -72,8 +73,8 @@ void leave_out_rims_at_ends(Opening& hole, const Box& box) {
     if (2 * hole.half[k] >= size - near) {
       hole.middle[k] = 0;
       hole.half[k] = endless;
-    } else if (!box.periodic[k] && (low <= 0 || high >= size - near)) {
-      if (low <= 0) low = -far * size;
+    } else if (!box.periodic[k] && (low <= near || high >= size - near)) {
+      if (low <= near) low = -far * size;
       if (high >= size - near) high = far * size;
       hole.middle[k] = 0.5 * (low + high);
       hole.half[k] = 0.5 * (high - low);
@@ -81,7 +82,9 @@ void leave_out_rims_at_ends(Opening& hole, const Box& box) {
   }
 }
 
-std::vector<Hole> joined_rectangles(const core::Scene& scene, const Box& box) {
+}  // namespace
+
+std::vector<Hole> rectangles_of(const core::Scene& scene, const Box& box) {
   std::vector<Hole> holes;
   for (std::size_t n = 0; n < scene.discharges.size(); ++n)
     holes.push_back({n, rectangle(scene.discharges[n], box, scene.column.dimensions)});
@@ -98,17 +101,15 @@ std::vector<Hole> joined_rectangles(const core::Scene& scene, const Box& box) {
   return holes;
 }
 
-}  // namespace
-
 std::vector<Hole> holes_of(const core::Scene& scene, const Box& box) {
-  std::vector<Hole> holes = joined_rectangles(scene, box);
+  std::vector<Hole> holes = rectangles_of(scene, box);
   for (Hole& hole : holes) leave_out_rims_at_ends(hole.opening, box);
   return holes;
 }
 
 std::vector<std::pair<std::size_t, std::size_t>> holes_in_part_joined(const core::Scene& scene, const Box& box) {
   std::vector<std::pair<std::size_t, std::size_t>> pairs;
-  const std::vector<Hole> holes = joined_rectangles(scene, box);
+  const std::vector<Hole> holes = rectangles_of(scene, box);
   for (std::size_t a = 0; a < holes.size(); ++a)
     for (std::size_t b = a + 1; b < holes.size(); ++b)
       if (axis_of_joint(holes[a].opening, holes[b].opening, box) != 3)

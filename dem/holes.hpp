@@ -14,8 +14,11 @@ struct Hole {
   Opening opening;
 };
 
-/// Discharges that share a whole edge, also across joined sides, are one hole. A hole has no rim where it ends with its
-/// face, and none along an axis that it spans. Rules ask also for the holes of cases whose corners they refuse.
+/// Discharges that share a whole edge, also across joined sides, are one rectangle. Rules ask also for those of cases
+/// whose corners they refuse.
+[[nodiscard]] std::vector<Hole> rectangles_of(const core::Scene& scene, const Box& box);
+
+/// The same as holes, which have no rim where they end with their face, and none along an axis that they span.
 [[nodiscard]] std::vector<Hole> holes_of(const core::Scene& scene, const Box& box);
 
 /// Numbers of two discharges whose holes share a part of an edge: there a particle would meet the rims of both.

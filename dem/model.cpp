@@ -155,10 +155,8 @@ void Model::step(double stop) {
     move(limits_.dt);
   else if (coupling_)
     coupling_->hold(particles_);
-  if (coupling_ && coupling_->due(steps_)) {
-    if (feeding_) coupling_->see(feeding_->arrivals(clock()));
-    coupling_->advance(particles_, clock());
-  }
+  if (coupling_ && coupling_->due(steps_))
+    coupling_->advance(particles_, clock(), feeding_ ? feeding_->arrivals(clock()) : Arrivals{});
   reported_ = std::abs(clock() - stop) < 0.5 * limits_.dt ? stop : clock();
   look_ahead();
   if (ahead_ == Ahead::trouble) stop_in_trouble();

@@ -21,14 +21,12 @@ bool discharges_below(const core::Scene& scene) {
 
 core::Broken blocked_discharges(const core::Scene& scene) {
   core::Broken broken;
+  if (scene.bed.held) return broken;
   const double largest = core::largest_diameter(scene);
-  for (std::size_t n = 0; !scene.bed.held && n < scene.discharges.size(); ++n) {
-    const core::Discharge& hole = scene.discharges[n];
-    for (std::size_t d = 0; d < std::min(hole.from.size(), hole.to.size()); ++d)
-      if (hole.to[d] - hole.from[d] < largest * (1 - 1e-12)) {
-        broken.add({std::to_string(n + 1), fmt::format("{:.4g}", largest)}, n);
-        break;
-      }
+  for (const Hole& hole : rectangles_of(scene, bare_box_of(scene.column))) {
+    const Vector& half = hole.opening.half;
+    if (2 * *std::min_element(half.begin(), half.end()) < largest * (1 - 1e-12))
+      broken.add({std::to_string(hole.discharge + 1), fmt::format("{:.4g}", largest)}, hole.discharge);
   }
   return broken;
 }
@@ -85,8 +83,9 @@ const std::vector<core::Rule>& model_rules() {
        "apart",
        blocked_discharges},
       {{"discharge.from", "discharge.to", "discharge.at", "column.size", "column.cells"},
-       "[[discharge]] number {} and {} share a part of an edge: polybed tfm can run it, polybed dem cannot: particles "
-       "would meet a rim there; let them share the whole edge, or move them apart",
+       "[[discharge]] number {} and {} touch and are no rectangle together: polybed tfm can run it, polybed dem "
+       "cannot: "
+       "particles would meet a rim there; make them one, or move them apart",
        discharges_joined_in_part},
       {{"discharge.at", "fluid.name", "fluid.equation_of_state"},
        "[[discharge]] in a compressible fluid: polybed tfm can run it, polybed dem cannot: the mass of the fluid that "

@@ -182,12 +182,13 @@ void Coupling::correct(Particles& particles) {
   }
 }
 
-void Coupling::advance(Particles& particles, double t) {
+void Coupling::advance(Particles& particles, double t, Arrivals arrivals) {
   const double dt = interval();
   {
     const auto scope = timers_.scope("fluid forces");
     if (stand()) correct(particles);
   }
+  see(std::move(arrivals));
   {
     const auto scope = timers_.scope("fluid: particles' sums");
     collect(particles);

@@ -57,14 +57,16 @@ class Coupling final : public KeptPart {
   /// Whether the fluid takes its step after so many of the particles.
   [[nodiscard]] bool due(std::int64_t steps) const { return steps % every_ == 0; }
   /// The fluid's step to a time; each particle then receives the impulse of the change of the fluid.
-  void advance(Particles& particles, double time);
+  void advance(Particles& particles, double time, Arrivals arrivals);
   /// Before particles change ranks and places, and after.
   void send_ahead(Exchange& exchange, const Particles& particles);
   void settle_in(const Particles& particles);
   /// Forgets what is kept of the particles that are about to be taken out.
   void let_go(const Outflow& outflow, const Particles& particles);
   /// From here on particles count as far as they have come in.
-  void see(Arrivals arrivals) { scatter_.open_faces()->see(std::move(arrivals)); }
+  void see(Arrivals arrivals) {
+    if (scatter_.open_faces() != nullptr) scatter_.open_faces()->see(std::move(arrivals));
+  }
   /// Particles that have entered since the end of a step of the fluid: forces act on them from now on; nothing changes for the others. Collective. \param first  least id of those that have entered
   void take_in(const Particles& particles, std::int64_t first);
   /// What a particle costs over what it costs to be in a contact: 5.5 was measured (docs/theory/parallel.md).

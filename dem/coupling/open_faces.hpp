@@ -37,7 +37,7 @@ class OpenFaces {
   }
   /// Share of its volume that is inside.
   [[nodiscard]] double inside(const Place& place, std::int64_t id) const {
-    double share = arrivals_.share_of(id);
+    double share = arrivals_.share(box_, place, id);
     for (const Opening& face : faces_)
       if (cuts(face, place))
         share *= measures::sphere_volume_below(place.radius, face.outward(place.x), face.outward(face.place)) /

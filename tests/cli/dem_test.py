@@ -198,7 +198,7 @@ class GoOn(Dem):
         whole = self.whole_run()
         kept = (whole / "history.csv").read_bytes()
         told = self.dem(WRONG_CASE, whole).stderr
-        self.assertIn("holds a run already", told)
+        self.assertIn("contains a run already", told)
         self.assertEqual((whole / "history.csv").read_bytes(), kept)
         self.dem(DONE, whole, "--force", "--until", "1 ms")
 

@@ -119,9 +119,10 @@ void expect_what_leaves_to_be_gone(core::Scene scene, See&& see) {
   double inside = 0;
   for (std::size_t i = 0; i < through.model.particles().owned; ++i) {
     const dem::Place& place = through.model.particles().place[i];
-    const double come = through.model.feeding() == nullptr
-                            ? 1
-                            : through.model.feeding()->arrivals().share_of(through.model.particles().id[i]);
+    const double come =
+        through.model.feeding() == nullptr
+            ? 1
+            : through.model.feeding()->arrivals().share(through.model.box(), place, through.model.particles().id[i]);
     inside += come * measures::sphere_volume_below(place.radius, place.x[1], high);
   }
   compare("solids in the cells", solids_of(through.model), inside, 1e-9);

@@ -85,7 +85,9 @@ TEST(DemRoundColumn, IsFedWithinItsCircle) {
   bed.steps(1000);
   EXPECT_EQ(bed.model.feeding()->all(), 10);
   double inside = 0;
-  for (std::int64_t id = 0; id < 11; ++id) inside += bed.model.feeding()->arrivals().share_of(id) * bead_volume;
+  const dem::Particles& particles = bed.model.particles();
+  for (std::size_t i = 0; i < particles.owned; ++i)
+    inside += bed.model.feeding()->arrivals().share(bed.model.box(), particles.place[i], particles.id[i]) * bead_volume;
   EXPECT_GT(inside, 8 * bead_volume);
   compare("solids in the cells", solids_of(bed.model), inside, 1e-9);
 }

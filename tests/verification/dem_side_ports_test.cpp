@@ -111,6 +111,25 @@ TEST(DemSidePorts, DischargesSideBySideAreOneHole) {
   EXPECT_NEAR(force_at(scene, {6e-3 - near, 0, 10e-3})[0], -hertz(), allowed);
 }
 
+// As wide as each other, and moved aside: they keep their rims, though the rules refuse them.
+TEST(DemSidePorts, OnlyARectangleIsJoined) {
+  core::Scene scene = holed(ColumnFace::right);
+  scene.discharges = {{ColumnFace::right, {4e-3, 4e-3}, {8e-3, 8e-3}, {{0.0, 0.1}}},
+                      {ColumnFace::right, {6e-3, 8e-3}, {10e-3, 12e-3}, {{0.0, 0.1}}}};
+  EXPECT_EQ(Beads(scene, {{"a", {0.01, 0.01, 0.01}}}).model.box().openings.size(), 2U);
+  scene.discharges[1] = {ColumnFace::right, {4e-3, 8e-3}, {8e-3, 12e-3}, {{0.0, 0.1}}};
+  EXPECT_EQ(Beads(scene, {{"a", {0.01, 0.01, 0.01}}}).model.box().openings.size(), 1U);
+}
+
+// A hole that is joined of two from the middle on ends with its side all the same.
+TEST(DemSidePorts, AJoinedHoleHasNoRimAtItsSide) {
+  core::Scene scene = holed(ColumnFace::bottom);
+  scene.column.size = {0.06, width, width};
+  scene.discharges = {{ColumnFace::bottom, {28e-3, 7e-3}, {39e-3, 13e-3}, {{0.0, 0.1}}},
+                      {ColumnFace::bottom, {0, 7e-3}, {28e-3, 13e-3}, {{0.0, 0.1}}}};
+  EXPECT_NEAR(force_at(scene, {r - 5e-6, 0, 10e-3})[0], hertz(), 1e-10 * hertz());  // of the wall alone
+}
+
 // A chute that ends on the lower rim of a hole: beyond its end one of the two pushes.
 TEST(DemSidePorts, AWallThatEndsAtARimPushesOnce) {
   core::Scene scene = holed(ColumnFace::right);

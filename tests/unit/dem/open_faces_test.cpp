@@ -62,12 +62,14 @@ TEST(OpenFaces, LeavesTheShareOfASphericalCap) {
 // Of the particles that come in the last ones count in part.
 TEST(OpenFaces, CountWhatComesInAsItsArrivalSays) {
   OpenFaces top(core::grid_of(cloud_scene(3, false).column, nullptr), open_top());
-  const Place low{{5e-3, 2 * r, 5e-3}, r}, half{{5e-3, height, 5e-3}, r};
-  top.see({.first = 7, .share = {0.25, 0.5}});
+  const Place low{{5e-3, r, 5e-3}, r}, half{{0.1 * r, height, 5e-3}, r}, on{{5e-3, 2 * r, 5e-3}, r};
+  const double way = 0.5 * r;  // a cap of 5/32
+  top.see({.first = 7, .of = {{way, core::ColumnFace::bottom}, {r, core::ColumnFace::left}}});
   EXPECT_FALSE(top.cuts(low, 6));
   EXPECT_EQ(top.inside(low, 6), 1);
   EXPECT_TRUE(top.cuts(low, 7));
-  EXPECT_EQ(top.inside(low, 7), 0.25);
+  EXPECT_NEAR(top.inside(low, 7), 5.0 / 32, 1e-12);
+  EXPECT_NEAR(top.inside(on, 7), 0.5, 1e-12);  // moved on by a radius
   EXPECT_NEAR(top.inside(half, 8), 0.25, 1e-12);
   top.see({});
   EXPECT_FALSE(top.cuts(low, 7));
