@@ -57,8 +57,10 @@ class CaseReader {
         read_entry(name.str(), name, node);
     }
     leave_others_to_chooser();
-    for (std::string_view table : {"column", "fluid", "species", "bed", "run"})
+    for (std::string_view table : {"column", "fluid", "species", "run"})
       if (!root.contains(table)) wrong_table(table, {}, fmt::format("{} is missing", header(*find_table(table))));
+    if (!root.contains("bed") && !root.contains("layer"))
+      wrong_table("bed", {}, "[bed] is missing: what lies in the column at the start; or give its layers as [[layer]]");
   }
 
   Scene finish() {
@@ -298,6 +300,15 @@ class CaseReader {
     values_.add(place, message);
     for (const Key& key : find_table(table)->keys) wrong_.add(key.path());
   }
+  /// The first key of that name in a table, after the table and a point; empty: there is none.
+  [[nodiscard]] std::string key_in_a_table(std::string_view name) const {
+    for (const Role& role : roles_)
+      if (role.name == name) return fmt::format("effects.{}", name);
+    for (const Table& t : tables())
+      for (const Key& k : t.keys)
+        if (!t.name.empty() && k.name == name) return fmt::format("{}.{}", t.name, name);
+    return "";
+  }
   void wrong_key(const toml::key& key, std::string_view table) {
     std::vector<std::string> names;
     const Table* known = find_table(table);
@@ -307,7 +318,8 @@ class CaseReader {
       for (const Role& role : roles_) names.push_back(role.name);
     if (table.empty())
       for (const Table& t : tables()) names.emplace_back(t.name);
-    const std::string near = nearest_name(key.str(), names);
+    std::string near = nearest_name(key.str(), names);
+    if (const std::string inside = table.empty() ? key_in_a_table(key.str()) : ""; !inside.empty()) near = inside;
     constexpr std::size_t few = 8;  // names that fit on a line
     std::string hint = instead_of_removed(fmt::format("{}.{}", table, key.str()));
     if (hint.empty() && !near.empty())

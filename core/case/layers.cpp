@@ -156,6 +156,26 @@ LayerTotals totals_of_layers(const Scene& scene) {
   return totals;
 }
 
+SettledFractions settled_fractions(const Scene& scene) {
+  SettledFractions settled{scene.bed.solids_fraction,
+                           std::vector<double>(scene.species.size(), scene.bed.solids_fraction)};
+  if (scene.layers.empty()) return settled;
+  std::vector<double> solids(scene.species.size(), 0.0), bulk = solids;
+  for (std::size_t n = 0; n < scene.layers.size(); ++n) {
+    const std::vector<double> here = solids_of(scene, n);
+    const double area = footprint(scene, scene.layers[n]).area();
+    for (std::size_t j = 0; j < std::min(here.size(), solids.size()); ++j) {
+      solids[j] += area * here[j];
+      bulk[j] += area * here[j] / settled_fraction_of(scene, scene.layers[n]);
+    }
+  }
+  const auto sum = [](const std::vector<double>& parts) { return std::accumulate(parts.begin(), parts.end(), 0.0); };
+  if (sum(bulk) > 0) settled.of_bed = sum(solids) / sum(bulk);
+  for (std::size_t j = 0; j < solids.size(); ++j)
+    if (bulk[j] > 0) settled.of_species[j] = solids[j] / bulk[j];
+  return settled;
+}
+
 void fill_layers(Scene& scene) {
   Bed& bed = scene.bed;
   double densest = 0;

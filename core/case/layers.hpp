@@ -52,6 +52,15 @@ struct LayerTotals {
 /// \param scene  with a volume_share of every species and a solids_fraction in each layer
 [[nodiscard]] LayerTotals totals_of_layers(const Scene& scene);
 
+/// Solids fractions of the settled bed and of what each species settles in: of layers in the mean by volume.
+struct SettledFractions {
+  double of_bed = 0;
+  std::vector<double> of_species;
+};
+
+/// \pre as of totals_of_layers; without layers all are bed.solids_fraction
+[[nodiscard]] SettledFractions settled_fractions(const Scene& scene);
+
 /// Fills in volume_share and solids_fraction of each layer and, where the case gives none, of the bed: volume_share,
 /// static_height (of the same solids over the whole cross-section) and solids_fraction (of the densest layer).
 /// \pre the keys of the layers are sound

@@ -84,17 +84,21 @@ struct Balance {
   }
   [[nodiscard]] bool known() const { return law && packed > 0; }
   [[nodiscard]] std::optional<double> minimum_fluidisation(const CarriedBed& bed) const {
+    return minimum_fluidisation(bed, packed);
+  }
+  /// \param at  voidage of the bed when settled
+  [[nodiscard]] std::optional<double> minimum_fluidisation(const CarriedBed& bed, double at) const {
     if (!(bed.excess > 0 && bed.gravity > 0)) return {};
-    if (known()) return closures::carrying_velocity(drag(), bed, packed);
+    if (known()) return closures::carrying_velocity(drag(), bed, at);
     return closures::minimum_fluidisation(bed.diameter, bed.excess, bed.fluid_density, bed.viscosity, bed.gravity);
   }
-  /// \param settled  height of the packed bed, m, were the column as wide everywhere as at the bottom
+  /// \param solids  volume over the area of the bottom, m
   [[nodiscard]] std::optional<double> height(const core::Column& column, const CarriedBed& bed, double velocity,
-                                             double settled) const {
-    if (!known() || !(settled > 0)) return {};
-    if (column.is_tapered()) return height_in_taper(column, bed, velocity, settled * (1 - packed));
+                                             double solids) const {
+    if (!known() || !(solids > 0)) return {};
+    if (column.is_tapered()) return height_in_taper(column, bed, velocity, solids);
     const double voidage = closures::carried_voidage(drag(), bed, velocity, packed);
-    return voidage < 1 ? std::optional(settled * (1 - packed) / (1 - voidage)) : std::nullopt;
+    return voidage < 1 ? std::optional(solids / (1 - voidage)) : std::nullopt;
   }
 
  private:
@@ -117,7 +121,7 @@ struct Balance {
 
 Balance balance_of(const core::Scene& scene) {
   Balance balance;
-  const double solids = scene.bed.solids_fraction;
+  const double solids = core::settled_fractions(scene).of_bed;
   if (solids > 0 && solids < 1) balance.packed = 1 - solids;
   if (!scene.effects.contains("drag")) return balance;
   balance.law = relevance::drag_law_of(scene);
@@ -166,8 +170,8 @@ void expect(const core::Scene& scene, const Balance& balance, std::vector<double
     return;
   }
   const CarriedBed bed_of_those = mixture_of(scene, share, fluid, gravity);
-  const double settled = stays * scene.column.even_height(scene.bed.static_height);
-  const auto height_by = [&](const Balance& one) { return one.height(scene.column, bed_of_those, velocity, settled); };
+  const double solids = stays * scene.column.even_height(scene.bed.static_height) * scene.bed.solids_fraction;
+  const auto height_by = [&](const Balance& one) { return one.height(scene.column, bed_of_those, velocity, solids); };
   bed.own.height = height_by(balance);
   Balance other = balance;
   for (ByLaw& one : bed.others) {
@@ -177,7 +181,7 @@ void expect(const core::Scene& scene, const Balance& balance, std::vector<double
   const bool bubbles = fluid.density < relevance::lightest_liquid;
   const bool packed_start = scene.bed.start_solids_fraction == scene.bed.solids_fraction;
   if (!bubbles && packed_start && bed.leaving.empty() && !scene.column.is_tapered())
-    bed.rising_time = rising_time(bed, settled, scene.column.size[1]);
+    bed.rising_time = rising_time(bed, solids / (1 - balance.packed), scene.column.size[1]);
 }
 
 /// Of the rows of docs/record/validation.md with this kind of bed.
@@ -223,12 +227,13 @@ BedOfCase bed_without_expansion(const core::Scene& scene) {
   }
   const relevance::FluidConstants fluid = relevance::fluid_constants(scene.fluid);
   const Balance balance = balance_of(scene);
+  const std::vector<double> settled = core::settled_fractions(scene).of_species;
   for (const core::Species& species : scene.species) {
     const double excess = species.density - fluid.density;
     const CarriedBed alone{species.diameter, excess, fluid.density, fluid.viscosity, gravity};
     SpeciesInFluid& one = bed.species.emplace_back();
     one.name = species.name;
-    one.minimum_fluidisation = balance.minimum_fluidisation(alone);
+    one.minimum_fluidisation = balance.minimum_fluidisation(alone, 1 - settled[bed.species.size() - 1]);
     if (excess != 0 && gravity > 0)
       (excess > 0 ? one.terminal : one.rising) =
           closures::settling_velocity(species.diameter, std::abs(excess), fluid.density, fluid.viscosity, gravity);

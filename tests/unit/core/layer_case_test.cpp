@@ -60,6 +60,21 @@ std::string message_of_bed(const std::string& bed) {
   return "";
 }
 
+// Sand fills 20 mm at 0.6 and its part of half of 30 mm at 0.5: (12 + 1.875)/(20 + 3.75); all 19.5 mm of 35.
+TEST(Layer, EachSpeciesSettlesAsInItsLayers) {
+  const SettledFractions settled = settled_fractions(read(bed_of(two_layers)));
+  EXPECT_DOUBLE_EQ(settled.of_species[0], 13.875 / 23.75);
+  EXPECT_DOUBLE_EQ(settled.of_species[1], 0.5);
+  EXPECT_DOUBLE_EQ(settled.of_bed, 19.5 / 35);
+}
+
+TEST(Layer, SomeLayersAreABed) {
+  std::string layers = two_layers.substr(two_layers.find("[[layer]]"));
+  layers.insert(layers.find("height"), "solids_fraction = 0.6\n");
+  EXPECT_EQ(read(bed_of(layers)).bed.static_height, read(bed_of(two_layers)).bed.static_height);
+  EXPECT_THAT(message_of_bed(""), HasSubstr("[bed] is missing: what lies in the column at the start"));
+}
+
 // Over the cross-section: 12 mm of sand below, 7.5 mm of solids above, a quarter of them sand.
 TEST(Layers, AmountAndSharesOfTheBedFollow) {
   const Scene scene = read(bed_of(two_layers));
