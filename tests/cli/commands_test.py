@@ -82,8 +82,9 @@ class WrongCase(Scratch):
             self.assertEqual(len(told), 1, f"{key} at {line}:{column} in\n{done.stderr}")
             self.assertIn(message, told[0])
 
-    def test_a_law_of_another_program_and_a_decimal_comma_get_a_hint(self):
+    def test_a_law_of_another_program_a_bare_key_and_a_decimal_comma_get_a_hint(self):
         for setting, hint in (("effects.drag=syamlal_obrien", "in a gas bed gidaspow is nearest"),
+                              ("drag=cello", "did you mean 'effects.drag'?"), ("until=1", "did you mean 'run.until'?"),
                               ("species.fine.diameter=0,8 mm", 'did you mean "0.8 mm"?')):
             self.assertIn(hint, self.ends(WRONG_CASE, "check", CASE, "--set", setting).stderr)
 
