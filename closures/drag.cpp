@@ -227,6 +227,11 @@ void move(const DragLaw& law, std::span<const double> y, double* f) {
   for (std::size_t n = 0; n < y.size(); ++n) f[n] *= law.moved(y[n]);
 }
 
+/// Scales f of particles of one shape. \param slip  superficial  \param per_length  rho_f D/mu
+void shape(const ShapeFactor& factor, std::size_t cells, const double* slip, double per_length, double* f) {
+  for (std::size_t c = 0; c < cells; ++c) f[c] *= factor(per_length * slip[c]);
+}
+
 /// The law, or the partition that shares its base law.
 template <class Body>
 void visit_sharing(const DragLaw& law, Body&& body) {
@@ -259,6 +264,11 @@ void drag_of_points(const DragLaw& law, std::span<const double> voidage, std::sp
     f[n] *= law.common;
     re_dfdre[n] *= law.common;
   }
+  for (std::size_t n = 0; n < f.size() && law.shape; ++n) {
+    const DragValue shaped = law.shape->mean({f[n], re_dfdre[n]}, reynolds[n]);
+    f[n] = shaped.f;
+    re_dfdre[n] = shaped.re_dfdre;
+  }
 }
 
 void drag_of_cells(const DragLaw& law, std::span<const double> voidage, std::span<const double* const> share,
@@ -281,6 +291,8 @@ void drag_of_cells(const DragLaw& law, std::span<const double> voidage, std::spa
             reynolds[c] = per_viscosity * slip[j][begin + c] / block.per_mean[c];
           take_mean(law, l.base, voidage.subspan(begin, block.cells), reynolds, f[j] + begin, count);
         }
+        if (law.shape)
+          shape(law.shape->species[j], block.cells, slip[j] + begin, per_viscosity * diameter[j], f[j] + begin);
         if (!law.is_moved()) continue;
         for (std::size_t c = 0; c < block.cells; ++c) y[c] = diameter[j] * block.per_mean[c];
         move(law, {y.data(), block.cells}, f[j] + begin);

@@ -18,6 +18,7 @@
 #include "closures/drag_richardson_zaki.hpp"
 #include "closures/drag_stokes.hpp"
 #include "closures/mixture_laws.hpp"
+#include "closures/shape_factor.hpp"
 
 namespace polybed::closures {
 
@@ -43,11 +44,21 @@ struct DragLaw {
   /// What a study of the law's uncertainty moves: f_j is multiplied by common [1 + tilt (y_j - 1)]. The tilt changes
   /// the ratio of the species alone: where f_j goes as y_j, sum x_j f_j/y_j^2 is the same.
   double common = 1, tilt = 0;
+  /// The factors of particles that are no spheres, on f_j of each species and on the base law of one size; none: all
+  /// are spheres.
+  std::optional<BedShape> shape = {};
 
   [[nodiscard]] bool is_moved() const { return common != 1 || tilt != 0; }
   /// The factor of a species; above 0 for any y_j.
   [[nodiscard]] double moved(double y) const { return common * std::max(1 + tilt * (y - 1), least_tilted); }
   static constexpr double least_tilted = 0.1;
+
+  /// The law whose base law is that of a species alone.
+  [[nodiscard]] DragLaw alone(std::size_t species) const {
+    DragLaw law = *this;
+    if (law.shape) law.shape->mean = law.shape->species[species];
+    return law;
+  }
 };
 
 /// The law of a name, with or without its guard; throws std::invalid_argument for an unknown name.
@@ -106,8 +117,8 @@ void drag_of_cells(const DragLaw& law, std::span<const double> voidage, std::spa
 /// Whether the law asks for more of a mixture than its two mean diameters.
 [[nodiscard]] bool needs_per_square(const DragLaw& law);
 
-/// Many particles, each in a mixture of its own: f[particle] of the particle's own species, no allocation. All spans of
-/// one length.
+/// Many particles, each in a mixture of its own: f[particle] of the particle's own species, no allocation, without its
+/// shape. All spans of one length.
 /// \param per_mean  sum x_j / D_j around the particle, 1/m  \param average  sum x_j D_j around it, m
 /// \param per_square  sum x_j / D_j^2 around it, 1/m2; may be empty unless needs_per_square(law)
 /// \param largest  the greatest diameter of the scene, that of an absent species too, m

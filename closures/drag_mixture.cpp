@@ -67,6 +67,12 @@ void drag_of_mixture(const DragLaw& law, double voidage, std::span<const double>
           }
         },
         *law.partition);
+  for (std::size_t j = 0; j < diameter.size() && law.shape; ++j) {
+    const DragValue shaped =
+        law.shape->species[j]({f[j], re_dfdre[j]}, fluid_density * slip[j] * diameter[j] / viscosity);
+    f[j] = shaped.f;
+    re_dfdre[j] = shaped.re_dfdre;
+  }
   for (std::size_t j = 0; j < diameter.size() && law.is_moved(); ++j) {
     const double factor = law.moved(diameter[j] * composition.per_mean);
     f[j] *= factor;
@@ -85,12 +91,12 @@ double drag_of_mean(const DragLaw& law, double voidage, double reynolds, std::sp
                     std::span<const double> diameter, std::span<const double> f) {
   const auto built_on_base = [](const auto& l) { return std::remove_cvref_t<decltype(l)>::mean_is_base; };
   const bool base = law.partition ? std::visit(built_on_base, *law.partition) : std::visit(built_on_base, law.law);
-  return base ? law.common * base_at(law, voidage, reynolds).f : mean_of_species(share, diameter, f);
+  return base ? pure_drag_at(law, voidage, reynolds) : mean_of_species(share, diameter, f);
 }
 
 double deviation_from_base(const DragLaw& law, double voidage, double reynolds, std::span<const double> share,
                            std::span<const double> diameter, std::span<const double> f) {
-  return mean_of_species(share, diameter, f) / (law.common * base_at(law, voidage, reynolds).f) - 1;
+  return mean_of_species(share, diameter, f) / pure_drag_at(law, voidage, reynolds) - 1;
 }
 
 }  // namespace polybed::closures

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "closures/drag_schiller_naumann.hpp"
+#include "closures/shape_factor.hpp"
 
 namespace polybed::closures {
 
@@ -28,11 +29,11 @@ template <class Drag>
   return 0.5 * (low + high);
 }
 
-/// The same by the drag of Schiller and Naumann, good to 5 % up to a Reynolds number of 800.
+/// The same by the drag of Schiller and Naumann, good to 5 % up to a Reynolds number of 800. \param shape  factor on it
 [[nodiscard]] inline double settling_velocity(double diameter, double excess, double fluid_density, double viscosity,
-                                              double gravity) {
-  return terminal_velocity([](double eps, double re) { return DragSchillerNaumann{}(eps, re).f; }, diameter, excess,
-                           fluid_density, viscosity, gravity);
+                                              double gravity, const ShapeFactor& shape = {}) {
+  return terminal_velocity([&](double eps, double re) { return DragSchillerNaumann{}(eps, re).f * shape(re); },
+                           diameter, excess, fluid_density, viscosity, gravity);
 }
 
 }  // namespace polybed::closures
