@@ -88,29 +88,33 @@ struct MethodRow {
 };
 
 /// Every law of one size with every partition, but for the pairs that a law of mixtures is made of.
-void add_pairs(const BinaryBed& bed, const std::string& method, std::vector<MethodRow>& rows) {
+void add_pairs(const core::Scene& scene, const BinaryBed& bed, const std::string& method,
+               std::vector<MethodRow>& rows) {
   for (const closures::DragLawInfo& mean : closures::drag_laws()) {
     if (!mean.is_mean) continue;
     for (const closures::DragLawInfo& partition : closures::partitions()) {
-      const closures::DragLaw pair = closures::drag_law(mean.name, partition.name, closures::Guard::on);
+      const closures::DragLaw pair =
+          relevance::with_shape(closures::drag_law(mean.name, partition.name, closures::Guard::on), scene);
       if (pair.partition) rows.push_back({method, mean.name, partition.name, inversion_points(bed, pair, method)});
     }
   }
 }
 
 /// Every method, with every drag law where it takes one; the force balance also with every mean law and partition.
-std::vector<MethodRow> all_methods(const BinaryBed& bed) {
+std::vector<MethodRow> all_methods(const core::Scene& scene) {
+  const BinaryBed bed = binary_bed(scene);
+  const auto points = [&](const std::string& law, const std::string& method) {
+    return inversion_points(bed, relevance::with_shape(closures::drag_law(law, closures::Guard::on), scene), method);
+  };
   std::vector<MethodRow> rows;
   for (const InversionMethod& method : inversion_methods()) {
     if (!method.takes_law) {
-      rows.push_back(
-          {method.name, "", "", inversion_points(bed, closures::drag_law("cello", closures::Guard::on), method.name)});
+      rows.push_back({method.name, "", "", points("cello", method.name)});
       continue;
     }
     for (const closures::DragLawInfo& law : closures::drag_laws())
-      rows.push_back({method.name, law.name, "",
-                      inversion_points(bed, closures::drag_law(law.name, closures::Guard::on), method.name)});
-    if (method.takes_partition) add_pairs(bed, method.name, rows);
+      rows.push_back({method.name, law.name, "", points(law.name, method.name)});
+    if (method.takes_partition) add_pairs(scene, bed, method.name, rows);
   }
   return rows;
 }
@@ -280,7 +284,7 @@ std::string reason_of(const core::Scene& scene) {
 void run_without_a_run(const InversionOptions& options) {
   const core::Scene scene = read_chosen_case(options.case_path, options.overrides, {});
   if (options.method == "all") {
-    const std::vector<MethodRow> rows = all_methods(binary_bed(scene));
+    const std::vector<MethodRow> rows = all_methods(scene);
     if (options.json) return print_methods_json(rows);
     return options.details ? print_methods(rows, scene) : print_best_methods(rows, scene);
   }

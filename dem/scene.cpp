@@ -13,6 +13,7 @@
 #include "core/error.hpp"
 #include "dem/holes.hpp"
 #include "dem/packing.hpp"
+#include "relevance/drag_law.hpp"
 #include "relevance/fluid_properties.hpp"
 
 namespace polybed::dem {
@@ -71,11 +72,14 @@ void add_plates(const core::Scene& scene, Box& box) {
 /// inflow; or that of a channel. \param first  speed at the start, m/s
 double speed_in_fluid(const core::Scene& scene, double first) {
   const relevance::FluidConstants fluid = relevance::fluid_constants(scene.fluid);
-  const auto drag = [law = closures::DragTurtonLevenspiel{}](double eps, double re) { return law(eps, re).f; };
   double fastest = first, inflow = 0;
-  for (const core::Species& s : scene.species)
+  for (const core::Species& s : scene.species) {
+    const auto drag = [shape = relevance::shape_of(scene, s)](double eps, double re) {
+      return closures::DragTurtonLevenspiel{}(eps, re).f * shape(re);
+    };
     fastest = std::max(fastest, closures::terminal_velocity(drag, s.diameter, s.density - fluid.density, fluid.density,
                                                             fluid.viscosity, scene.column.gravity));
+  }
   for (const auto& [t, u] : scene.inlet.superficial_velocity) inflow = std::max(inflow, u * scene.column.contraction());
   for (const core::Jet& jet : scene.jets)
     for (const auto& [t, u] : jet.superficial_velocity) inflow = std::max(inflow, u);

@@ -15,6 +15,7 @@
 #include "dem/measures.hpp"
 #include "dem/model.hpp"
 #include "dem/packing.hpp"
+#include "relevance/drag_law.hpp"
 #include "relevance/effects/contact.hpp"
 #include "relevance/effects/rolling.hpp"
 #include "relevance/fluid_properties.hpp"
@@ -74,13 +75,13 @@ void forget(core::Checkpoint& checkpoint, std::size_t place, std::size_t count) 
 }
 
 /// m/s, at which a species settles alone, or rises; infinite without a fluid, or where it does neither.
-double speed_alone(const core::Scene& scene, const Species& species) {
+double speed_alone(const core::Scene& scene, const core::Species& species) {
   constexpr double none = std::numeric_limits<double>::infinity();
   if (!scene.fluid.present()) return none;
   const relevance::FluidConstants fluid = relevance::fluid_constants(scene.fluid);
   const double excess = std::abs(species.density - fluid.density);
-  return excess > 0 ? closures::settling_velocity(2 * species.radius, excess, fluid.density, fluid.viscosity,
-                                                  scene.column.gravity)
+  return excess > 0 ? closures::settling_velocity(species.diameter, excess, fluid.density, fluid.viscosity,
+                                                  scene.column.gravity, relevance::shape_of(scene, species))
                     : none;
 }
 
@@ -91,7 +92,7 @@ double energy_of_fall(const core::Scene& scene, const Model& model) {
   const std::vector<std::int64_t> number = numbers_of(model);
   for (std::size_t j = 0; j < number.size(); ++j) {
     const Species& species = model.materials().species()[j];
-    const double alone = speed_alone(scene, species);
+    const double alone = speed_alone(scene, scene.species[j]);
     energy += double(number[j]) * species.mass * std::min(scene.column.gravity * species.radius, 0.5 * alone * alone);
   }
   return energy;
@@ -129,7 +130,7 @@ double settling_time(const core::Scene& scene, const Materials& materials, const
     const double room = s.density > density ? height : box.size[1];  // what is lighter rises to the top of the column
     const double way = std::max(0.0, room - scene.column.filled_height(solids / scene.bed.solids_fraction));
     const double clear = 1 - solids / scene.column.even_height(room);
-    slowest = std::max(slowest, way / (speed_alone(scene, s) * std::pow(clear, hindrance)));
+    slowest = std::max(slowest, way / (speed_alone(scene, scene.species[j]) * std::pow(clear, hindrance)));
   }
   return in_fluid * (dry + slowest);
 }

@@ -8,6 +8,7 @@
 #include "core/error.hpp"
 #include "core/numerics/blocks.hpp"
 #include "core/numerics/metric.hpp"
+#include "relevance/drag_law.hpp"
 #include "tfm/fields.hpp"
 #include "tfm/step_estimate.hpp"
 
@@ -110,9 +111,8 @@ void estimate_steps(const core::Scene& scene, const tfm::Model& model, Requireme
   };
   const double rest = scene.bed.solids_fraction;
   need.rest = need.lifted = need.expanded = state(rest);
-  const auto drag = scene.effects.find("drag");
-  if (drag == scene.effects.end() || !(velocity > 0)) return;
-  const double expanded = tfm::expanded_fraction(constants, drag->second, velocity, rest);
+  if (!scene.effects.contains("drag") || !(velocity > 0)) return;
+  const double expanded = tfm::expanded_fraction(constants, relevance::drag_law_of(scene), velocity, rest);
   if (expanded == rest) return;
   need.expanded = state(expanded);
   need.lifted = state(std::max(lifted_fraction(scene, model), expanded));

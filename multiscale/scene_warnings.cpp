@@ -10,6 +10,7 @@
 #include "closures/terminal_velocity.hpp"
 #include "core/case/resolve.hpp"
 #include "multiscale/scene_rules.hpp"
+#include "relevance/drag_law.hpp"
 #include "relevance/fluid_properties.hpp"
 
 namespace polybed::multiscale {
@@ -59,8 +60,9 @@ double fastest_rise(const core::Scene& scene, const relevance::FluidConstants& f
   double rise = 0;
   for (const core::Species& s : scene.species)
     if (s.density < fluid.density)
-      rise = std::max(rise, closures::settling_velocity(s.diameter, fluid.density - s.density, fluid.density,
-                                                        fluid.viscosity, scene.column.gravity));
+      rise = std::max(rise,
+                      closures::settling_velocity(s.diameter, fluid.density - s.density, fluid.density, fluid.viscosity,
+                                                  scene.column.gravity, relevance::shape_of(scene, s)));
   return rise;
 }
 

@@ -5,6 +5,7 @@
 
 #include "closures/relevance.hpp"
 #include "closures/terminal_velocity.hpp"
+#include "relevance/drag_law.hpp"
 #include "relevance/effect.hpp"
 #include "relevance/supremum.hpp"
 
@@ -110,8 +111,9 @@ EffectRow clusters(const core::Scene& scene, const Survey& survey) {
     cell = std::max(cell, scene.column.size[std::size_t(axis)] / scene.column.cells[std::size_t(axis)]);
   double value = 0;
   for (const core::Species& s : scene.species) {
-    const double terminal = closures::settling_velocity(s.diameter, s.density - survey.fluid_density,
-                                                        survey.fluid_density, survey.viscosity, scene.column.gravity);
+    const double terminal =
+        closures::settling_velocity(s.diameter, s.density - survey.fluid_density, survey.fluid_density,
+                                    survey.viscosity, scene.column.gravity, shape_of(scene, s));
     if (cell > 10 * s.diameter && terminal > 0)
       value = std::max(value, scene.column.gravity * cell / (terminal * terminal));
   }

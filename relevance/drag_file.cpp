@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <numeric>
 
 #include "core/case/file.hpp"
 #include "core/case/keys.hpp"
@@ -185,6 +186,31 @@ closures::DragLaw drag_law_named(const std::string& law, const std::string& part
   if (!path) return closures::drag_law(law, partition, guard);
   const DragFile file = read_drag_file(*path);
   return closures::shared_by(law_of_file(file, guard), file.form.empty() ? file.law : law, partition, guard);
+}
+
+closures::ShapeFactor shape_of(const core::Scene& scene, const core::Species& species) {
+  const std::string name = core::law_of(scene, "shape");
+  if (core::is_off(name)) return {};
+  for (const closures::ShapeLaw& law : closures::shape_laws)
+    if (law.name == name) return closures::shape_factor(law, species.sphericity);
+  return closures::shape_factor(closures::shape_laws[0], species.sphericity);  // left to the chooser
+}
+
+closures::DragLaw with_shape(closures::DragLaw law, const core::Scene& scene) {
+  if (!core::acts(scene, "shape") || core::all_spheres(scene)) return law;
+  std::vector<double> sphericity, diameter, share = scene.bed.volume_share;
+  closures::BedShape& shape = law.shape.emplace();
+  for (const core::Species& species : scene.species) {
+    shape.species.push_back(shape_of(scene, species));
+    sphericity.push_back(species.sphericity);
+    diameter.push_back(species.diameter);
+  }
+  if (share.size() != sphericity.size() || !(std::accumulate(share.begin(), share.end(), 0.0) > 0))
+    share.assign(sphericity.size(), 1);  // not known
+  core::Species mean;
+  mean.sphericity = closures::mean_sphericity(sphericity, share, diameter);
+  shape.mean = shape_of(scene, mean);
+  return law;
 }
 
 }  // namespace polybed::relevance

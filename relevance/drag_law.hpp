@@ -19,15 +19,23 @@ namespace polybed::relevance {
 [[nodiscard]] closures::DragLaw drag_law_named(const std::string& law, const std::string& partition = "none",
                                                closures::Guard guard = closures::Guard::on);
 
-/// The same of a case. Throws std::invalid_argument also where the case has no law.
+/// The law on particles of the shapes that a case gives its species, where it has effects.shape.
+[[nodiscard]] closures::DragLaw with_shape(closures::DragLaw law, const core::Scene& scene);
+
+/// The factor of the shape of a species on drag; 1 without effects.shape.
+[[nodiscard]] closures::ShapeFactor shape_of(const core::Scene& scene, const core::Species& species);
+
+/// The drag law of a case, with its shapes. Throws std::invalid_argument also where the case has no law.
 [[nodiscard]] inline closures::DragLaw drag_law_of(const core::Scene& scene) {
-  return drag_law_named(core::law_of(scene, "drag"), core::law_of(scene, "partition"));
+  return with_shape(drag_law_named(core::law_of(scene, "drag"), core::law_of(scene, "partition")), scene);
 }
 
-/// Its name for reports: "wen_yu", or "wen_yu x brinkman_oseen".
+/// Its name for reports: "wen_yu", or "wen_yu x brinkman_oseen x ganser".
 [[nodiscard]] inline std::string drag_name_of(const core::Scene& scene) {
-  const auto partition = scene.effects.find("partition");
-  return core::law_of(scene, "drag") + (partition == scene.effects.end() ? "" : " x " + partition->second);
+  std::string name = core::law_of(scene, "drag");
+  for (const char* part : {"partition", "shape"})
+    if (const auto law = scene.effects.find(part); law != scene.effects.end()) name += " x " + law->second;
+  return name;
 }
 
 }  // namespace polybed::relevance

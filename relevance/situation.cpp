@@ -161,10 +161,13 @@ class BedInFluid {
   void add_freeboard(double velocity) {
     for (std::size_t j = 0; j < diameter_.size(); ++j) {
       const Situation p = particle(j);
+      const closures::ShapeFactor shape = shape_of(scene_, scene_.species[j]);
       const double terminal = closures::settling_velocity(p.diameter, p.density - p.fluid_density, p.fluid_density,
-                                                          p.viscosity, scene_.column.gravity);
-      if (const double w = std::max(velocity, terminal); w > 0)
+                                                          p.viscosity, scene_.column.gravity, shape);
+      if (const double w = std::max(velocity, terminal); w > 0) {
         survey_.situations.push_back(in_zone(p, Zone::freeboard, w, 1, law_));
+        survey_.situations.back().f *= shape(survey_.situations.back().reynolds());
+      }
     }
   }
 
@@ -173,10 +176,10 @@ class BedInFluid {
     const double sauter = closures::sauter_diameter(survey_.share, diameter_);
     const double mean = closures::drag_of_mean(law_, voidage, fluid_.density * velocity * sauter / fluid_.viscosity,
                                                survey_.share, diameter_, f);
-    const auto base = [&](double eps, double re) { return closures::pure_drag_at(law_, eps, re); };
     double least = 1e300, most = 0;
     for (std::size_t j = 0; j < diameter_.size(); ++j) {
       survey_.mixture_part = std::max(survey_.mixture_part, std::abs(f[j] / mean - 1));
+      const auto base = [law = law_.alone(j)](double eps, double re) { return closures::pure_drag_at(law, eps, re); };
       closures::CarriedBed alone = bed_;
       alone.diameter = diameter_[j];
       alone.excess = std::abs(scene_.species[j].density - fluid_.density);
@@ -264,7 +267,7 @@ Survey survey(const core::Scene& scene) {
              scene.fluid.equation_of_state == core::Compressibility::ideal_gas || fluid.density < lightest_liquid;
   s.drag_scene = drag_scene_of(scene, s);
   s.drag = drag_taken(scene, s);
-  const closures::DragLaw law = drag_law_named(s.drag.law, s.drag.partition);
+  const closures::DragLaw law = with_shape(drag_law_named(s.drag.law, s.drag.partition), scene);
   for (const core::Fluid& state : fluids_of(scene)) {
     BedInFluid bed(scene, state, law, s);
     const bool one = s.least_velocity == s.greatest_velocity;

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "closures/shape_factor.hpp"
 #include "core/numerics/field.hpp"
 #include "fluid/fluid_state.hpp"
 #include "fluid/interphase.hpp"
@@ -20,10 +21,11 @@ struct Constants {
   double gravity = 9.81;                 ///< m/s2, along `down`
   std::array<double, 3> down{0, -1, 0};  ///< unit vector on the axes; aslant in a column that leans
   relevance::FluidConstants fluid;
-  std::vector<double> diameter;   ///< D_j, m
-  std::vector<double> density;    ///< rho_j, kg/m3
-  std::vector<double> bed_share;  ///< X_j: share of the species in the whole bed
-  bool form_b = false;            ///< the pressure's gradient acts on the fluid alone
+  std::vector<double> diameter;              ///< D_j, m
+  std::vector<double> density;               ///< rho_j, kg/m3
+  std::vector<closures::ShapeFactor> shape;  ///< on the drag of a lone particle; empty: all are spheres
+  std::vector<double> bed_share;             ///< X_j: share of the species in the whole bed
+  bool form_b = false;                       ///< the pressure's gradient acts on the fluid alone
   std::vector<std::string> name;
   fluid::Openings openings;  ///< where solids cross the ends of the column
 

@@ -10,6 +10,7 @@
 #include "core/numerics/blocks.hpp"
 #include "core/numerics/ranks.hpp"
 #include "fluid/pressure.hpp"
+#include "relevance/drag_law.hpp"
 #include "relevance/fluid_properties.hpp"
 #include "tfm/initial.hpp"
 #include "tfm/parts.hpp"
@@ -36,6 +37,8 @@ Constants make_constants(const core::Scene& scene, const std::shared_ptr<const c
     constants.density.push_back(species.density);
     constants.name.push_back(species.name);
   }
+  for (std::size_t j = 0; j < scene.species.size() && core::acts(scene, "shape"); ++j)
+    constants.shape.push_back(relevance::shape_of(scene, scene.species[j]));
   constants.openings = fluid::Openings(constants.grid, scene);
   return constants;
 }

@@ -23,7 +23,7 @@ namespace {
 closures::DragLaw law_of_scene(const core::Scene& scene) {
   if (!core::acts(scene, "drag"))
     throw core::CaseError("calibrate: particles in a fluid need a drag law: [effects] drag = ..., see polybed list");
-  return relevance::drag_law_named(core::law_of(scene, "drag"));
+  return relevance::with_shape(relevance::drag_law_named(core::law_of(scene, "drag")), scene);
 }
 
 /// Voidage at which drag carries the buoyant weight of one species alone, in [0.4, 0.99].
@@ -40,7 +40,7 @@ double floating_voidage(const core::Scene& scene, const closures::DragLaw& law, 
 RegimeNumbers regime_numbers(const core::Scene& scene, std::size_t species, double velocity, double voidage) {
   const core::Species& s = scene.species[species];
   const relevance::FluidConstants fluid = relevance::fluid_constants(scene.fluid);
-  const closures::DragLaw law = law_of_scene(scene);
+  const closures::DragLaw law = law_of_scene(scene).alone(species);
   RegimeNumbers n;
   n.species = s.name;
   n.velocity = velocity;

@@ -58,7 +58,8 @@ double mean_density(const Constants& constants) {
 
 double terminal_velocity(const Constants& constants, std::size_t species) {
   return closures::settling_velocity(constants.diameter[species], constants.density[species] - constants.fluid.density,
-                                     constants.fluid.density, constants.fluid.viscosity, constants.gravity);
+                                     constants.fluid.density, constants.fluid.viscosity, constants.gravity,
+                                     constants.shape.empty() ? closures::ShapeFactor() : constants.shape[species]);
 }
 
 double greatest_terminal_velocity(const Constants& constants) {
@@ -67,17 +68,11 @@ double greatest_terminal_velocity(const Constants& constants) {
   return greatest;
 }
 
-double expanded_fraction(const Constants& constants, const std::string& name, double velocity, double packed) {
+double expanded_fraction(const Constants& constants, const closures::DragLaw& law, double velocity, double packed) {
   const double excess = mean_density(constants) - constants.fluid.density;
   if (!(excess * constants.gravity > 0)) return 0;
-  const closures::DragLaw law = relevance::drag_law_named(name);
   const double diameter = closures::sauter_diameter(constants.bed_share, constants.diameter);
-  const auto f = [&](double eps, double re) {
-    double value = 0, slope = 0;
-    closures::GuardCount count;
-    closures::drag_of_points(law, {&eps, 1}, {&re, 1}, {&value, 1}, {&slope, 1}, count);
-    return value;
-  };
+  const auto f = [&](double eps, double re) { return closures::pure_drag_at(law, eps, re); };
   const closures::CarriedBed bed{diameter, excess, constants.fluid.density, constants.fluid.viscosity,
                                  constants.gravity};
   return 1 - closures::carried_voidage(f, bed, velocity, 1 - packed);
@@ -140,9 +135,8 @@ double split_step(const Constants& constants, const std::vector<TimeScale>& scal
 
 double split_steps_per_implicit(const core::Scene& scene, const Constants& constants, const Effects& effects,
                                 double velocity) {
-  const auto drag = scene.effects.find("drag");
   const double rest = scene.bed.solids_fraction;
-  const double phi = !effects.drag ? rest : expanded_fraction(constants, drag->second, velocity, rest);
+  const double phi = !effects.drag ? rest : expanded_fraction(constants, relevance::drag_law_of(scene), velocity, rest);
   const std::vector<TimeScale> scales = time_scales_of_bed(scene, constants, effects, {phi, velocity}, true);
   const double inside = velocity / (1 - phi), rtol = scene.tfm.rtol;  // solids that fall together overturn the fluid
   return accurate_step(constants, inside, rtol, implicit_share, true) /

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "closures/drag.hpp"
 #include "core/case/scene.hpp"
 #include "tfm/effects.hpp"
 #include "tfm/step_limits.hpp"
@@ -28,8 +29,7 @@ struct UniformBed {
 /// 18 mu U f(eps, Re)/D^2 = (rho_s - rho_f) g eps, T(1.49) with the balance of T(1.24); `packed` where even that is not
 /// carried, 0 where a lone particle is carried away or nothing pulls it down. By bisection, since drag falls with
 /// voidage.
-/// \param law  name of a drag law
-[[nodiscard]] double expanded_fraction(const Constants& constants, const std::string& law, double velocity,
+[[nodiscard]] double expanded_fraction(const Constants& constants, const closures::DragLaw& law, double velocity,
                                        double packed);
 
 /// The scales that time_scales() finds in cells, of a uniform bed: convection with the fluid's velocity between the

@@ -104,6 +104,10 @@ bool is_off(const std::string& law) { return law == "none"; }
 
 bool is_law(const std::string& law) { return !is_off(law) && law != automatic; }
 
+bool all_spheres(const Scene& scene) {
+  return std::all_of(scene.species.begin(), scene.species.end(), [](const Species& s) { return s.sphericity == 1; });
+}
+
 void set_friction(Scene& scene, double friction) {
   scene.material.friction = friction;
   for (Species& species : scene.species) species.friction = friction;

@@ -97,8 +97,9 @@ struct Species {
   std::string name;
   double diameter = 0;  ///< m
   SizeDistribution sizes;
-  double density = 0;                                                                      ///< kg/m3
-  double max_packing = 0.64;                                                               ///< of this species alone
+  double density = 0;         ///< kg/m3
+  double sphericity = 1;      ///< surface of the sphere of equal volume over its own
+  double max_packing = 0.64;  ///< of this species alone
   std::optional<double> youngs_modulus, poisson_ratio, given_friction, given_restitution;  ///< else those of [dem]
   double friction = usual_friction, restitution = usual_restitution;  ///< follow from those given and the material
 };
@@ -366,6 +367,9 @@ inline constexpr const char* automatic = "auto";
 [[nodiscard]] inline bool acts(const Scene& scene, const std::string& role) { return !is_off(law_of(scene, role)); }
 /// Whether it names the law itself.
 [[nodiscard]] inline bool names_law(const Scene& scene, const std::string& role) { return is_law(law_of(scene, role)); }
+
+/// Whether every species is of spheres.
+[[nodiscard]] bool all_spheres(const Scene& scene);
 
 /// Gives walls and all species one friction, one restitution.
 void set_friction(Scene& scene, double friction);

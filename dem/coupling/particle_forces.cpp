@@ -142,6 +142,10 @@ void ParticleForces::ask_drag(const Particles& particles, std::size_t begin, std
   closures::drag_of_particles(*laws_.drag, first(batch_.voidage), first(batch_.per_mean), first(batch_.average),
                               first(batch_.per_square), largest_, first(batch_.share), first(batch_.size),
                               first(batch_.slip), fluid_density_, viscosity_, first(batch_.f), count_);
+  if (const auto& shape = laws_.drag->shape)
+    for (std::size_t n = 0; n < count; ++n)
+      batch_.f[n] *= shape->species[std::size_t(particles.species[begin + n])](fluid_density_ * batch_.slip[n] *
+                                                                               batch_.size[n] / viscosity_);
   for (std::size_t n = 0; n < count; ++n)
     loads[begin + n].drag = creeping_[std::size_t(particles.species[begin + n])] * batch_.voidage[n] * batch_.f[n];
 }

@@ -5,8 +5,8 @@ namespace polybed::dem {
 
 namespace makers {
 
-extern const Maker drag, partition, fluid_stress, gas_slip, added_mass, lift, magnus, history, brownian, lubrication,
-    contact, rolling, cohesion, liquid_bridge;
+extern const Maker drag, partition, shape, fluid_stress, gas_slip, added_mass, lift, magnus, history, brownian,
+    lubrication, contact, rolling, cohesion, liquid_bridge;
 
 }  // namespace makers
 
@@ -14,8 +14,8 @@ const std::vector<const Maker*>& effects() {
   using namespace makers;
   // A law around the normal force comes before the normal force.
   static const std::vector<const Maker*> all{
-      &drag,    &partition, &fluid_stress, &gas_slip, &added_mass, &lift,     &magnus,
-      &history, &brownian,  &lubrication,  &contact,  &rolling,    &cohesion, &liquid_bridge,
+      &drag,    &partition, &shape,       &fluid_stress, &gas_slip, &added_mass, &lift,          &magnus,
+      &history, &brownian,  &lubrication, &contact,      &rolling,  &cohesion,   &liquid_bridge,
   };
   return all;
 }

@@ -120,6 +120,8 @@ Plan plan_of(const core::Scene& scene) {
     throw core::CaseError(
         fmt::format("calibrate needs bed.volume_share; bed.start = \"{}\" has none", text_of(scene.bed.start)));
   Plan plan{regime_of(scene), {}, !scene.calibrate.share.empty()};
+  if (core::acts(scene, "shape") && !core::all_spheres(scene) && plan.regime.kind != core::BoxRegime::dry)
+    throw core::CaseError("calibrate: boxes in a fluid are of spheres: set effects.shape = \"none\"");
   plan.axes = axes_of(scene, plan.regime.kind);
   return plan;
 }

@@ -175,7 +175,7 @@ void expect(const core::Scene& scene, const Balance& balance, std::vector<double
   bed.own.height = height_by(balance);
   Balance other = balance;
   for (ByLaw& one : bed.others) {
-    other.law = relevance::drag_law_named(one.law);
+    other.law = relevance::with_shape(relevance::drag_law_named(one.law), scene);
     one.height = height_by(other);
   }
   const bool bubbles = fluid.density < relevance::lightest_liquid;
@@ -233,10 +233,13 @@ BedOfCase bed_without_expansion(const core::Scene& scene) {
     const CarriedBed alone{species.diameter, excess, fluid.density, fluid.viscosity, gravity};
     SpeciesInFluid& one = bed.species.emplace_back();
     one.name = species.name;
-    one.minimum_fluidisation = balance.minimum_fluidisation(alone, 1 - settled[bed.species.size() - 1]);
+    Balance of_one = balance;
+    if (balance.law) of_one.law = balance.law->alone(bed.species.size() - 1);
+    one.minimum_fluidisation = of_one.minimum_fluidisation(alone, 1 - settled[bed.species.size() - 1]);
     if (excess != 0 && gravity > 0)
       (excess > 0 ? one.terminal : one.rising) =
-          closures::settling_velocity(species.diameter, std::abs(excess), fluid.density, fluid.viscosity, gravity);
+          closures::settling_velocity(species.diameter, std::abs(excess), fluid.density, fluid.viscosity, gravity,
+                                      relevance::shape_of(scene, species));
     if (fluid.density < relevance::lightest_liquid) one.geldart = geldart_class(species.diameter, excess);
   }
   const std::vector<double> share = shares_of(scene);
@@ -252,7 +255,7 @@ BedOfCase bed_without_expansion(const core::Scene& scene) {
     Balance other = balance;
     for (const std::string& law :
          relevance::laws_of_beds(gas ? relevance::DragScene::gas_bed : relevance::DragScene::liquid_bed)) {
-      other.law = relevance::drag_law_named(law);
+      other.law = relevance::with_shape(relevance::drag_law_named(law), scene);
       bed.others.push_back({law, other.minimum_fluidisation(mixture), {}});
     }
     bed.validity = validity_of(scene, gas);

@@ -5,6 +5,7 @@
 
 #include "closures/sphere.hpp"
 #include "closures/terminal_velocity.hpp"
+#include "relevance/drag_law.hpp"
 #include "relevance/fluid_properties.hpp"
 
 namespace polybed::multiscale {
@@ -155,8 +156,8 @@ double settling_time(const core::Scene& scene, const core::Species& species, dou
   const relevance::FluidConstants fluid = relevance::fluid_constants(scene.fluid);
   const double excess = std::abs(species.density - fluid.density);
   if (!(excess > 0 && scene.column.gravity > 0)) return 0;
-  return height /
-         closures::settling_velocity(species.diameter, excess, fluid.density, fluid.viscosity, scene.column.gravity);
+  return height / closures::settling_velocity(species.diameter, excess, fluid.density, fluid.viscosity,
+                                              scene.column.gravity, relevance::shape_of(scene, species));
 }
 
 /// A bed in a very viscous fluid creeps for longer than most runs last: its drift is judged against its settling.

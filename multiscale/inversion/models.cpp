@@ -109,12 +109,17 @@ std::vector<InversionPoint> by_force_balance(const BinaryBed& bed, const DragLaw
   return points;
 }
 
+closures::ShapeFactor shape_of(const DragLaw& law, std::size_t j) {
+  return law.shape ? law.shape->species[j] : closures::ShapeFactor();
+}
+
 /// Voidage of a uniform bed of species j alone at u: f(eps, Re) 18 mu u / (eps D^2) = (rho_j - rho_f) g.
 std::optional<double> pure_voidage(const BinaryBed& bed, const DragLaw& law, double u, std::size_t j) {
   const double weight = (bed.density[j] - bed.fluid.density) * bed.gravity, d = bed.diameter[j];
   const double re = bed.fluid.density * u * d / bed.fluid.viscosity;
+  const closures::ShapeFactor shape = shape_of(law, j);
   const auto excess = [&](double eps) {
-    const double f = std::visit([&](const auto& l) { return l.base(eps, re).f; }, law.law);
+    const double f = std::visit([&](const auto& l) { return l.base(eps, re).f; }, law.law) * shape(re);
     return 18 * bed.fluid.viscosity * u * f / (eps * d * d) - weight;
   };
   double low = least_voidage, high = 1;
@@ -144,12 +149,13 @@ std::vector<InversionPoint> by_bulk_density(const BinaryBed& bed, const DragLaw&
   return points;
 }
 
-std::vector<InversionPoint> by_expansion(const BinaryBed& bed) {
+std::vector<InversionPoint> by_expansion(const BinaryBed& bed, const DragLaw& law) {
   std::array<double, 2> terminal{}, exponent{};
   for (std::size_t j = 0; j < 2; ++j) {
     const closures::DragTurtonLevenspiel single;
-    terminal[j] = closures::terminal_velocity([&](double eps, double re) { return single(eps, re).f; }, bed.diameter[j],
-                                              bed.density[j] - bed.fluid.density, bed.fluid.density,
+    const closures::ShapeFactor shape = shape_of(law, j);
+    terminal[j] = closures::terminal_velocity([&](double eps, double re) { return single(eps, re).f * shape(re); },
+                                              bed.diameter[j], bed.density[j] - bed.fluid.density, bed.fluid.density,
                                               bed.fluid.viscosity, bed.gravity);
     exponent[j] = closures::DragRichardsonZaki{}.exponent(bed.fluid.density * terminal[j] * bed.diameter[j] /
                                                           bed.fluid.viscosity);
@@ -232,8 +238,7 @@ const std::vector<InversionMethod>& inversion_methods() {
   static const std::vector<InversionMethod> methods{
       {"force_balance", "drag of each species against its weight in the bulk", true, true, by_force_balance},
       {"bulk_density", "pure beds of equal bulk density, Epstein and LeClair 1985", true, false, by_bulk_density},
-      {"expansion", "equal slip velocities, Masliyah 1979", false, false,
-       [](const BinaryBed& bed, const DragLaw&) { return by_expansion(bed); }},
+      {"expansion", "equal slip velocities, Masliyah 1979", false, false, by_expansion},
       {"density_maximum", "composition of largest bulk density, Gibilaro 1986", false, false,
        [](const BinaryBed& bed, const DragLaw&) { return by_density_maximum(bed); }}};
   return methods;

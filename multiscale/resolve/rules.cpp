@@ -79,6 +79,14 @@ Broken species_without_spheres(const core::Scene& scene) {
   return broken;
 }
 
+Broken no_spheres(const core::Scene& scene) {
+  Broken broken;
+  for (std::size_t j = 0; asks(scene) && j < scene.species.size(); ++j)
+    if (const core::Species& s = scene.species[j]; s.sphericity < 1)
+      broken.add({fmt::format("{:g}", s.sphericity), s.name}, j);
+  return broken;
+}
+
 bool are_free(const core::Scene& scene) { return scene.resolve.motion == core::SphereMotion::free; }
 
 Broken reynolds_of_no_use(const core::Scene& scene) {
@@ -180,6 +188,9 @@ std::vector<core::Rule> resolve_rules() {
       {{"resolve.spheres", "resolve.voidage", "species.diameter", "bed.volume_share"},
        "resolve.spheres = {} leaves none of species '{}': take more",
        species_without_spheres},
+      {{"species.sphericity", "resolve.voidage", "bed.volume_share"},
+       "species.sphericity = {} of '{}': polybed resolve finds the drag on spheres; leave it out, or [resolve]",
+       no_spheres},
       {{"resolve.motion", "resolve.reynolds"},
        "resolve.motion = \"{}\": {}; leave out resolve.reynolds",
        reynolds_of_no_use},

@@ -37,11 +37,12 @@ inline std::string lifting_text(const Weighing& by) {
   }
   const double mean = closures::sauter_diameter(s.share, diameter), gravity = by.scene.column.gravity;
   if (!(excess * gravity > 0 && by.scene.bed.solids_fraction > 0)) return "";
-  const closures::DragLaw law = drag_law_named(s.drag.law, s.drag.partition);
+  const closures::DragLaw law = with_shape(drag_law_named(s.drag.law, s.drag.partition), by.scene);
   const auto f = [&](double eps, double re) { return closures::pure_drag_at(law, eps, re); };
   const double lifts = closures::carrying_velocity(f, {mean, excess, s.fluid_density, s.viscosity, gravity},
                                                    1 - by.scene.bed.solids_fraction),
-               falls = closures::settling_velocity(mean, excess, s.fluid_density, s.viscosity, gravity);
+               falls = closures::settling_velocity(mean, excess, s.fluid_density, s.viscosity, gravity,
+                                                   law.shape ? law.shape->mean : closures::ShapeFactor());
   return fmt::format("; by it the bed is lifted at {:.3g} mm/s, {}a particle falls at {:.3g} mm/s", 1e3 * lifts,
                      lifts > falls ? "though " : "and ", 1e3 * falls);
 }

@@ -9,7 +9,7 @@ from sources import ROOT, report, tracked
 FOLDERS = ("app", "core", "closures", "relevance", "fluid", "dem", "tfm", "multiscale")
 # What other code rests on: forces are balanced by the drag, boxes of particles touch, a continuum's solids have a pressure.
 RESTED_ON = {"drag", "contact", "solids_stress", "granular_temperature", "solids_viscosity", "species_exchange", "lubrication", "added_mass",
-             "fluid_stress", "gas_slip", "partition", "rolling"}
+             "fluid_stress", "gas_slip", "partition", "shape", "rolling"}
 BESIDE = 3  # formula, its test, docs row
 
 

@@ -121,7 +121,7 @@ KEYS = {
     **{f'{what} cannot act: fluid.name = "none"': [DRY, setting] for what, setting in (
         ("inlet.superficial_velocity", "inlet.superficial_velocity=0.1"), ("[[jet]]", jets(([0.01], [0.02]))), AT_TOP,
         ("fluid.temperature", "fluid.temperature=300"), ("fluid.density", "fluid.density=1"), ("fluid.viscosity", "fluid.viscosity=1"),
-        ("fluid.equation_of_state", "fluid.equation_of_state=tait"))},
+        ("fluid.equation_of_state", "fluid.equation_of_state=tait"), ("species.sphericity", "species.fine.sphericity=0.9"))},
     **{f"{what} cannot act: column.closed = true": ["column.closed=true", setting] for what, setting in (
         ("inlet.superficial_velocity", "inlet.superficial_velocity=0.1"), ("[[jet]]", jets(([0.01], [0.02]))), AT_TOP, ("[[feed]]", feeds("")),
         ('column.outlet = "open"', "column.outlet=open"))},
@@ -189,6 +189,11 @@ BROKEN = {
        for role in ("fluid_stress", "added_mass", "lift", "magnus", "history")},
     "effects.gas_slip: a fluid of {} kg/m3 is a liquid, which does not slip: leave it out": [on("gas_slip")],
     'effects.partition = "{}" cannot act: fluid.name = "none"': [DRY, on("partition", "cello")],
+    'effects.shape = "{}" cannot act: fluid.name = "none"': [DRY, on("shape", "ganser")],
+    'effects.shape = "{}" changes nothing: every species is a sphere; give species.sphericity below 1, or leave out effects.shape': [
+        on("shape", "ganser")],
+    'effects.shape = "{}" is a factor on the drag: give effects.drag': [
+        on("shape", "ganser"), "species.fine.sphericity=0.9", "effects.drag=none"],
     'effects.partition = "{}" shares a drag law of one size: give effects.drag, e.g. "wen_yu"': [
         on("partition", "cello"), "effects.drag=none"],
     'effects.partition = "{}" cannot share drag = "{}", which is a law of mixtures itself: give a law of one size, e.g. "wen_yu" or "vbk"': [

@@ -30,7 +30,7 @@ until = "0.05 s"
 every = "0.05 s"
 """
 KEYS = {"effect", "model", "on", "number", "value", "threshold", "neglected_bound", "reason"}
-CATALOGUE = {"drag", "added_mass", "history", "lift", "magnus", "brownian", "gas_slip", "fluid_stress", "solids_stress",
+CATALOGUE = {"drag", "added_mass", "history", "lift", "magnus", "brownian", "shape", "gas_slip", "fluid_stress", "solids_stress",
              "granular_temperature", "species_exchange", "contact", "rolling", "lubrication", "cohesion", "liquid_bridge", "weight",
              "pressure_gradient", "equation_of_state", "coupling", "walls", "level", "turbulence", "clusters"}
 
@@ -164,6 +164,19 @@ class Table(Scratch):
     def test_zones_can_be_chosen(self):
         rows = self.table(CASE, "--set", 'chooser.zones=["wall"]')[1]
         self.assertEqual(list(rows["lift"]["zones"]), ["wall"])
+
+    def test_a_sphericity_below_one_calls_for_its_factor(self):
+        case, below = self.write("shapes.toml", BEADS), ("--set", "species.beads.sphericity=0.8")
+        self.assertFalse(self.table(case)[1]["shape"]["on"])
+        row = self.table(case, *below)[1]["shape"]
+        self.assertEqual((row["on"], row["model"]), (True, "ganser"))
+        self.assertIn("beads has a sphericity of 0.8", row["reason"])
+        shaped, spheres = (self.ends(DONE, "check", case, *below, "--json", "--set", f"effects.shape={law}").stdout for law in ("auto", "none"))
+        self.assertIn("shape = ganser", shaped)
+        self.assertRegex(spheres, "off in the case, but needed: .*shape")
+        expected = [strict_json(text)["expected"] for text in (shaped, spheres)]
+        for of in ("terminal_m_s", "u_mf_m_s"):
+            self.assertLess(expected[0][of]["beads"], 0.95 * expected[1][of]["beads"])
 
     def test_what_is_wrong_is_told(self):
         done = self.ends(WRONG_CASE, "effects", CASE, "--set", 'chooser.velocity_range=["5 mm/s", "1 mm/s"]')

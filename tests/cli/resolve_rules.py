@@ -12,6 +12,8 @@ RESOLVED = {
     "or fewer resolve.grids": ["resolve.voidage=[0.35]", "resolve.cells_per_diameter=6"],
     "resolve.spheres = {}: at a voidage of {} the box is {} of the largest diameters wide; free spheres need {}, so that none touches another "
     "and its image: take {} or more": [*FREE, "resolve.spheres=2"],
+    "species.sphericity = {} of '{}': polybed resolve finds the drag on spheres; leave it out, or [resolve]": [
+        "resolve.voidage=[0.6]", "species.fine.sphericity=0.9"],
     'resolve.motion = "{}": {}; leave out resolve.reynolds': ["resolve.motion=moving", "resolve.reynolds=[5]"],
     'resolve.until is the time of free spheres, and resolve.motion = "{}": leave out resolve.until': ["resolve.until=1"],
     'effects.lubrication = "{}": resolve.motion = "free" resolves the flow between spheres; use "film" or "none"': [

@@ -208,8 +208,8 @@ TEST_P(Openings, NothingComesInThroughTheOutlet) {
 TEST_P(Openings, NearFloodingNoSolidsComeFromNowhere) {
   for (const double velocity : {0.08, 0.115, 0.15}) {
     core::Scene scene = binary_bed(8, 30, 0.032, 0.12);
-    scene.species[0] = {"heavy", 0.8e-3, {}, 2200, 0.64, {}, {}, {}, {}};
-    scene.species[1] = {"seed", 2.0e-3, {}, 4000, 0.64, {}, {}, {}, {}};
+    scene.species[0] = {"heavy", 0.8e-3, {}, 2200, 1, 0.64, {}, {}, {}, {}};
+    scene.species[1] = {"seed", 2.0e-3, {}, 4000, 1, 0.64, {}, {}, {}, {}};
     scene.bed.volume_share = {0.0, 1.0};
     scene.bed.static_height = 0.01;
     scene.effects.erase("species_exchange");

@@ -9,6 +9,7 @@
 #include "relevance/drag_law.hpp"
 #include "relevance/effects/gas_slip.hpp"
 #include "relevance/effects/partition.hpp"
+#include "relevance/effects/shape.hpp"
 #include "tfm/effects.hpp"
 #include "tfm/effects/maker.hpp"
 
@@ -78,13 +79,14 @@ class Drag : public FluidExchange {
 
 namespace makers {
 
-extern const Maker drag, partition, gas_slip;
+extern const Maker drag, partition, shape, gas_slip;
 const Maker drag{&relevance::effects::drag, "Exchange", [](const Making& m) {
                    m.effects.drag = std::make_unique<Drag>(m.constants, m.boundaries, relevance::drag_name_of(m.scene),
                                                            relevance::drag_law_of(m.scene),
                                                            relevance::slip_divisors(m.scene, m.constants.diameter));
                  }};
 const Maker partition{&relevance::effects::partition, "Exchange"};
+const Maker shape{&relevance::effects::shape, "Exchange"};
 const Maker gas_slip{&relevance::effects::gas_slip, "Exchange"};
 
 }  // namespace makers

@@ -5,8 +5,8 @@ namespace polybed::tfm {
 
 namespace makers {
 
-extern const Maker drag, partition, fluid_stress, gas_slip, solids_stress, granular_temperature, solids_viscosity,
-    species_exchange, added_mass, lift;
+extern const Maker drag, partition, shape, fluid_stress, gas_slip, solids_stress, granular_temperature,
+    solids_viscosity, species_exchange, added_mass, lift;
 
 }  // namespace makers
 
@@ -15,6 +15,7 @@ const std::vector<const Maker*>& effects() {
   static const std::vector<const Maker*> all{
       &drag,
       &partition,
+      &shape,
       &fluid_stress,
       &gas_slip,
       &solids_stress,

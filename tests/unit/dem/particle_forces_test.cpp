@@ -94,6 +94,21 @@ TEST(ParticleForces, APartitionSharesTheMeanLaw) {
   }
 }
 
+// The law of each species times its factor at its own Re, by superficial slip and own diameter.
+TEST(ParticleForces, AShapeMultipliesTheDragOfItsSpecies) {
+  const Vector u{0.1, 0.05, -0.02};
+  core::Scene scene = with("brinkman_oseen");
+  const std::vector<FluidLoad> spheres = Even(scene, {0.25, 0.2}, u, {}).loads();
+  scene.species[1].sphericity = 0.7;
+  scene.effects["shape"] = "haider_levenspiel";
+  Even even(scene, {0.25, 0.2}, u, {});
+  const double re = Even::density * 0.55 * even.slip(1, u) * 1.1e-3 / Even::viscosity;
+  const closures::ShapeFactor factor{closures::haider_levenspiel(0.7), closures::haider_levenspiel(1)};
+  EXPECT_GT(factor(re), 1.1);
+  EXPECT_EQ(even.loads()[0].drag, spheres[0].drag);
+  EXPECT_NEAR(even.loads()[1].drag, factor(re) * spheres[1].drag, 1e-14 * even.loads()[1].drag);  // round-off of Re
+}
+
 // -V grad p; no drag, nothing else.
 TEST(ParticleForces, PressureActsOnTheVolume) {
   const Vector gradient{100, -9810, 30};

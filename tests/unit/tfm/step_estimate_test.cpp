@@ -23,6 +23,8 @@ Constants spheres(double diameter, double density) {
   return constants;
 }
 
+closures::DragLaw law_of(const char* name) { return closures::drag_law(name, closures::Guard::on); }
+
 double scale_of(const std::vector<TimeScale>& scales, const std::string& process) {
   for (const TimeScale& scale : scales)
     if (scale.process == process) return scale.seconds;
@@ -34,17 +36,17 @@ double scale_of(const std::vector<TimeScale>& scales, const std::string& process
 // 1e-8 * 1000 * 9.81/0.018 = 5.45e-3 m/s by hand.
 TEST(ExpandedFraction, StokesByHand) {
   const Constants constants = spheres(1e-4, 2000);
-  EXPECT_NEAR(expanded_fraction(constants, "stokes", 0.7 * 5.45e-3, 0.6), 0.3, 1e-12);  // bisection to 2^-50
-  EXPECT_EQ(expanded_fraction(constants, "stokes", 0.3 * 5.45e-3, 0.6), 0.6) << "the fluid does not carry it";
-  EXPECT_EQ(expanded_fraction(constants, "stokes", 1.1 * 5.45e-3, 0.6), 0) << "a lone particle is carried away";
-  EXPECT_EQ(expanded_fraction(spheres(1e-4, 900), "stokes", 1e-3, 0.6), 0) << "nothing pulls it down";
+  EXPECT_NEAR(expanded_fraction(constants, law_of("stokes"), 0.7 * 5.45e-3, 0.6), 0.3, 1e-12);  // bisection to 2^-50
+  EXPECT_EQ(expanded_fraction(constants, law_of("stokes"), 0.3 * 5.45e-3, 0.6), 0.6) << "the fluid does not carry it";
+  EXPECT_EQ(expanded_fraction(constants, law_of("stokes"), 1.1 * 5.45e-3, 0.6), 0) << "a lone particle is carried away";
+  EXPECT_EQ(expanded_fraction(spheres(1e-4, 900), law_of("stokes"), 1e-3, 0.6), 0) << "nothing pulls it down";
 }
 
 TEST(ExpandedFraction, FallsWithVelocity) {
   const Constants constants = spheres(1e-3, 2500);
   double before = 0.6;
   for (const double velocity : {0.02, 0.04, 0.08}) {
-    const double now = expanded_fraction(constants, "cello", velocity, 0.6);
+    const double now = expanded_fraction(constants, law_of("cello"), velocity, 0.6);
     EXPECT_LT(now, before);
     before = now;
   }
