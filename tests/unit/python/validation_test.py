@@ -89,6 +89,8 @@ class Entries(unittest.TestCase):
         self.assertAlmostEqual(float(glass["median"].split()[0]) * math.exp(-2.5 * glass["deviation"] ** 2), mean("diameter", "glass") / 1e3, delta=5e-4)
         each = [float(row["value"]) for row in entries.chosen_rows(folder / "properties.csv", {"property": "diameter", "of": "glass"})]
         self.assertAlmostEqual(math.sqrt(math.expm1(glass["deviation"] ** 2)), np.std(each, ddof=1) / np.mean(each), delta=1e-4)
+        for species, of in ((intruder, "large intruder"), (glass, "glass")):
+            self.assertAlmostEqual(species["sphericity"], mean("sphericity", of), delta=5e-4)
         self.assertAlmostEqual(case["dem"]["restitution"], mean("restitution", "glass-glass"), delta=5e-4)
         self.assertAlmostEqual(case["contact_pair"][0]["restitution"], mean("restitution", "glass-intruder"), delta=6e-4)
 
