@@ -117,5 +117,28 @@ TEST_F(LawFile, WithoutTheFile) {
   EXPECT_FALSE(drag_file("cello"));
 }
 
+// Mean sphericity of 1 and 2 mm, shares 0.5 each, 0.8 and 1: (500 + 250)/(500/0.8 + 250) = 0.857143, by hand.
+TEST(DragOfShapes, IsThatOfTheSpeciesAndOfTheirMean) {
+  core::Scene scene;
+  scene.species.resize(2);
+  scene.species[0].diameter = 1e-3;
+  scene.species[1].diameter = 2e-3;
+  scene.bed.volume_share = {0.5, 0.5};
+  scene.effects = {{"drag", "wen_yu"}, {"shape", "haider_levenspiel"}};
+  EXPECT_FALSE(drag_law_of(scene).shape) << "spheres";
+  scene.species[0].sphericity = 0.8;
+  const closures::DragLaw law = drag_law_of(scene);
+  ASSERT_TRUE(law.shape);
+  const auto by_law = [](double psi) { return closures::haider_levenspiel(psi)(50).f; };
+  EXPECT_EQ(law.shape->species[0](50), by_law(0.8) / by_law(1));
+  EXPECT_EQ(law.shape->species[1](50), 1);
+  EXPECT_NEAR(law.shape->mean(50), by_law(0.857143) / by_law(1), 1e-5);  // the digits above
+  EXPECT_EQ(drag_name_of(scene), "wen_yu x haider_levenspiel");
+  scene.effects.erase("shape");
+  EXPECT_FALSE(drag_law_of(scene).shape) << "off";
+  scene.effects["shape"] = "auto";
+  EXPECT_EQ(shape_of(scene, scene.species[0])(0), closures::ganser(0.8).creeping);
+}
+
 }  // namespace
 }  // namespace polybed::relevance
