@@ -1,4 +1,4 @@
-// The errors of the program, one type per exit code, and the place where a problem in a case file stands.
+// The errors of the program, one type per exit code, and the place of a problem in a case file.
 #pragma once
 
 #include <stdexcept>
@@ -8,17 +8,17 @@
 
 namespace polybed::core {
 
-/// Codes at the end of the program; scripts rely on them.
+/// Exit codes of the program; scripts rely on them.
 enum class ExitCode : int { done = 0, wrong_case = 2, numerics = 3, file = 4, mpi = 5, stopped = 130 };
 
-/// One problem of a case file: where it is and what to do about it.
+/// One problem in a case file: its place, and how to correct it.
 struct CaseProblem {
   std::string file;     ///< as given on the command line; "--set" for an override; empty: no file was read
-  int line = 0;         ///< 1-based; 0 if the problem has no place (a table that is missing)
+  int line = 0;         ///< 1-based; 0 without a place (a missing table)
   int column = 0;       ///< 1-based
   std::string message;  ///< key, value, allowed range with unit, suggestion
 
-  /// file:line:column: message, without the parts that are not known.
+  /// file:line:column: message, without the unknown parts.
   [[nodiscard]] std::string text() const {
     std::string place = file;
     if (line > 0) place += ":" + std::to_string(line) + ":" + std::to_string(column);
@@ -26,7 +26,7 @@ struct CaseProblem {
   }
 };
 
-/// The case or the command is wrong: everything that is wrong, at once (exit code 2).
+/// The case or the command is wrong. Contains all its problems (exit code 2).
 class CaseError : public std::runtime_error {
  public:
   explicit CaseError(std::vector<CaseProblem> problems)
@@ -43,19 +43,19 @@ class CaseError : public std::runtime_error {
   std::vector<CaseProblem> problems_;
 };
 
-/// What is wrong with a case that keeps every rule, and only shows when its start is made: particles that cannot be
-/// packed, a column that cannot be cut, a table or a list that does not fit (exit code 2).
+/// An error in a case that satisfies every rule, found only when the start is made: particles that cannot be packed, a
+/// column that cannot be divided, a table or a list that does not fit (exit code 2).
 class StartError : public CaseError {
  public:
   using CaseError::CaseError;
 };
 
-/// The numbers failed: time, place, values and a hint are in the text (exit code 3).
+/// The computation failed: the text contains time, place, values and a hint (exit code 3).
 class NumericsError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// A conservation law is broken far beyond its limit: a run that is permissive goes on (exit code 3).
+/// A conservation law is violated far beyond its limit; a permissive run continues (exit code 3).
 class ConservationError : public NumericsError {
   using NumericsError::NumericsError;
 };
@@ -65,7 +65,7 @@ class FileError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// MPI failed or was asked for what it cannot do (exit code 5).
+/// MPI failed or does not support a request (exit code 5).
 class MpiError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };

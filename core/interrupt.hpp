@@ -1,16 +1,16 @@
-// The user's wish to stop: Ctrl-C, a termination request or a closed terminal, noted and asked for between steps.
+// The user's request to stop (Ctrl-C, a termination request or a closed terminal), noted and checked between steps.
 #pragma once
 
 #include <vector>
 
 namespace polybed::core {
 
-/// The signals that ask a run to stop: SIGINT, SIGTERM, SIGUSR1, which mpirun passes on without a time limit, and
-/// SIGHUP unless this process was started to outlive its terminal, as by nohup.
+/// The signals that request a stop: SIGINT, SIGTERM, SIGUSR1, which mpirun passes on without a time limit, and SIGHUP
+/// unless this process was started to outlive its terminal, for example with nohup.
 [[nodiscard]] std::vector<int> stop_signals();
 
-/// Notes the signals that ask to stop while it lives; a second one ends the program at once. One at a time: a signal
-/// handler has no other place for its note than a global.
+/// Notes the signals that request a stop while it exists; a second signal ends the program at once. Only one object at
+/// a time, since a signal handler can only write to a global.
 class Interrupt {
  public:
   Interrupt();
@@ -23,8 +23,8 @@ class Interrupt {
   std::vector<int> noted_;
 };
 
-/// Throws Stopped if the user wants to stop: for long work before the first step. Without an Interrupt nobody does.
-/// \param doing  what is not finished, for the message
+/// Throws Stopped if the user has requested a stop, for long work before the first step. Needs an Interrupt to work.
+/// \param doing  the unfinished work, for the message
 void stop_if_wanted(const char* doing);
 
 }  // namespace polybed::core

@@ -22,7 +22,7 @@ std::string content(const std::string& path) {
   return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
 }
 
-/// The number a file begins with; infinite if there is none ("max").
+/// The number at the start of a file; infinite if there is none ("max").
 double number_of_file(const std::string& path) {
   const std::string text = content(path);
   double value = 0;
@@ -30,7 +30,7 @@ double number_of_file(const std::string& path) {
   return error == std::errc() ? value : infinite;
 }
 
-/// What a control group leaves, version 2 or 1; what it holds of files in memory can be given back.
+/// Memory left in a control group, version 2 or 1; its cached files count as free.
 double left_by_group(const std::string& folder) {
   const double used = number_of_line(content(folder + "/memory.stat"), "inactive_file");
   const double files = std::max(used, 0.0);
@@ -41,7 +41,7 @@ double left_by_group(const std::string& folder) {
   return limit < infinite && now < infinite ? std::max(limit - std::max(now - files, 0.0), 0.0) : infinite;
 }
 
-/// What the groups of this process leave: each group, and every group around it, has a limit of its own.
+/// The memory left in the groups of this process: each group, and every group around it, has its own limit.
 double left_by_groups() {
   double least = std::min(left_by_group("/sys/fs/cgroup"), left_by_group("/sys/fs/cgroup/memory"));
   const std::string text = content("/proc/self/cgroup");

@@ -1,4 +1,4 @@
-// How much memory this process takes and may still take, as the system tells it.
+// Memory that this process uses and can still use, as the system reports it.
 #pragma once
 
 #include <string>
@@ -6,28 +6,27 @@
 
 namespace polybed::core {
 
-/// Memory that may still be taken, and what sets the limit.
+/// Memory that can still be allocated, and the limit that applies.
 struct AvailableMemory {
-  double bytes;       ///< infinite where nothing is known
+  double bytes;       ///< infinite if unknown
   std::string limit;  ///< e.g. "the machine's free memory"
 };
 
-/// The least of what the machine has free, of what the process's control group (a container) leaves and of the
-/// process's own limit on its addresses. Linux; elsewhere the last alone.
+/// The minimum of the machine's free memory, the memory left in the process's control group (a container) and the
+/// process's own address limit. Outside Linux the address limit alone.
 [[nodiscard]] AvailableMemory available_memory();
 
-/// The number in a line "name: N kB" or "name N" of a text of such lines, in bytes where it says kB; -1 if there is
-/// none.
+/// The number in a line "name: N kB" or "name N" of a text, in bytes for kB; -1 if there is no such line.
 [[nodiscard]] double number_of_line(std::string_view text, std::string_view name);
 
-/// Memory that the process holds now and at most ever held, bytes; 0 where the system does not tell.
+/// Current and peak memory of the process, bytes; 0 where the system does not report it.
 struct ProcessMemory {
   double now, most;
 };
 [[nodiscard]] ProcessMemory process_memory();
 
-/// From here on the system gets large arrays back as they are freed. Libraries for fast networks, which Open MPI loads,
-/// switch that off, and a run then keeps what it needed for a moment only.
+/// Returns large arrays to the system when they are freed, from this call on. Libraries for fast networks, which Open
+/// MPI loads, turn that off: a run then keeps memory that it needed only briefly.
 void give_back_what_is_freed();
 
 }  // namespace polybed::core

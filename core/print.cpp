@@ -13,7 +13,7 @@ namespace polybed::core {
 
 namespace {
 
-int first_refusal = 0;  // the reason behind the error flag of standard output, which the system keeps for none
+int first_refusal = 0;  // errno of the first failure, which standard output's error flag does not keep
 
 void send(std::FILE* stream, const std::string& text) {
   const bool taken = std::fwrite(text.data(), 1, text.size(), stream) == text.size();
@@ -26,7 +26,7 @@ struct Control {
   std::size_t bytes = 0;
 };
 
-/// The one that a text in UTF-8 begins with: of C0 and C1, and what turns the direction of writing.
+/// The control character at the start of a text in UTF-8: C0, C1, or one that turns the direction of writing.
 Control control_at(std::string_view text) {
   const auto byte = [&](std::size_t n) { return n < text.size() ? static_cast<unsigned char>(text[n]) : 0U; };
   const unsigned first = byte(0), second = byte(1), third = byte(2);
@@ -62,7 +62,7 @@ void put(std::FILE* stream, Colour colour, std::string_view text) {
   if ((refused != nullptr && *refused != '\0') || terminal == nullptr || terminal == without_colours ||
       !is_terminal(stream))
     return put(stream, text);
-  constexpr int codes[] = {1, 31, 32, 33, 34};  // of ECMA-48, in the order of Colour
+  constexpr int codes[] = {1, 31, 32, 33, 34};  // from ECMA-48, in the order of Colour
   send(stream, fmt::format("\033[{}m{}\033[0m", codes[std::size_t(colour)], plain(text)));
 }
 

@@ -17,13 +17,13 @@ using Clock = std::chrono::steady_clock;
 constexpr double terminal_interval = 0.25;  ///< s
 constexpr int lines_in_pipe = 20, bar_width = 24;
 
-/// Columns of the terminal on standard error; 0 where it does not say.
+/// Columns of the terminal on standard error; 0 if unknown.
 std::size_t terminal_columns() {
   winsize size{};
   return ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 ? size.ws_col : 0;
 }
 
-/// A line that is renewed in place must not wrap: its first columns, without a part of a letter. 0 columns: all of it.
+/// A line that is renewed in place must not wrap: keeps its first columns, in whole letters. 0 columns: all of it.
 std::string cut(const std::string& line, std::size_t columns) {
   std::size_t end = 0, shown = 0;
   for (const std::size_t most = columns > 1 ? columns - 1 : line.size(); end < line.size(); ++end) {
@@ -67,7 +67,7 @@ void Progress::show(const ProgressLine& line) {
   while (next_ <= line.time) next_ += (until_ - from_) / lines_in_pipe;
   const double done = line.time - from_, share = std::clamp(done / (until_ - from_), 0.0, 1.0);
   const double rate = done > 0 ? since(begin_) / done : 0;
-  constexpr double enough_to_tell = 1e-3;  // share of the run below which its speed and step say nothing yet
+  constexpr double enough_to_tell = 1e-3;  // share of the run before which speed and step mean nothing yet
   const std::string speed =
       share < enough_to_tell ? "" : fmt::format(", {} left", duration_text(rate * (until_ - line.time)));
   const std::string bed = line.bed_height ? fmt::format("  bed {:.1f} mm", 1e3 * *line.bed_height) : "";

@@ -7,7 +7,7 @@
 
 namespace polybed::core {
 
-/// What one line says.
+/// The content of one line.
 struct ProgressLine {
   double time = 0, until = 0, step = 0;  ///< s
   std::string limited_by;
@@ -17,7 +17,7 @@ struct ProgressLine {
 
 class Progress {
  public:
-  /// from: time at which the run begins, s. Writes to standard error, which keeps standard output for answers.
+  /// from: time at which the run begins, s. Writes to standard error, so that standard output contains only answers.
   Progress(bool quiet, double from, double until);
   ~Progress();
   Progress(const Progress&) = delete;
@@ -33,7 +33,7 @@ class Progress {
   std::chrono::steady_clock::time_point begin_, last_;
 };
 
-/// A length of time for people: "42 s", "3 min 20 s", "2 h 5 min".
+/// A duration for people: "42 s", "3 min 20 s", "2 h 5 min".
 [[nodiscard]] std::string duration_text(double seconds);
 
 }  // namespace polybed::core

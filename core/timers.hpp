@@ -42,17 +42,17 @@ class Timers {
   Timers(const Timers&) = delete;
   Timers& operator=(const Timers&) = delete;
 
-  /// Starts timing a term; made at its first use, in the order of first uses.
-  /// \param weight  how many calls this one stands for; 0: it is not timed, as asking the clock takes a system call
+  /// Starts timing a term; creates it at its first use, in the order of first uses.
+  /// \param weight  number of calls that this one represents; 0: not timed, as reading the clock is a system call
   [[nodiscard]] Scope scope(std::string_view name, std::uint64_t weight = 1) {
     return Scope(weight > 0 ? &term(name) : nullptr, weight);
   }
   [[nodiscard]] const std::vector<Term>& terms() const { return terms_; }
-  /// What a term has taken so far, s; 0 of one that has not been.
+  /// CPU time of a term so far, s; 0 if it has not been timed.
   [[nodiscard]] double seconds(std::string_view name) const;
 
  private:
-  static constexpr std::size_t most_terms = 64;  ///< so that terms never move while a scope holds one
+  static constexpr std::size_t most_terms = 64;  ///< fixed, so that terms never move while a scope points to one
   Term& term(std::string_view name);
   std::vector<Term> terms_;
 };

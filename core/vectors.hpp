@@ -1,4 +1,4 @@
-// Kernels compiled once for each width of vectors, and the width that this run uses. Closures include this header, too.
+// Kernels compiled once for each vector width, and the width of this run. Closures also include this header.
 #pragma once
 
 #include <array>
@@ -11,11 +11,11 @@
 
 namespace polybed::core {
 
-enum class VectorWidth { sse2, avx2, avx512 };  ///< on other processors the first is what the compiler takes
+enum class VectorWidth { sse2, avx2, avx512 };  ///< on other processors sse2 means the compiler's default
 
 constexpr std::array<std::string_view, 3> vector_width_names{"sse2", "avx2", "avx512"};
 
-/// Whether this processor has it.
+/// Whether this processor supports it.
 [[nodiscard]] inline bool at_hand(VectorWidth width) {
 #ifdef __x86_64__
   if (width == VectorWidth::avx2) return __builtin_cpu_supports("avx2");
@@ -26,8 +26,8 @@ constexpr std::array<std::string_view, 3> vector_width_names{"sse2", "avx2", "av
   return width == VectorWidth::sse2;
 }
 
-/// The widest at hand, or the one that the environment variable POLYBED_VECTORS names; throws std::invalid_argument
-/// where it names none at hand.
+/// The widest supported width, or the one in the environment variable POLYBED_VECTORS; throws std::invalid_argument if
+/// that names no supported one.
 [[nodiscard]] inline VectorWidth choose_vector_width() {
   const char* wanted = std::getenv("POLYBED_VECTORS");
   std::string names;
@@ -52,7 +52,7 @@ constexpr std::array<std::string_view, 3> vector_width_names{"sse2", "avx2", "av
 template <auto kernel, class Function = decltype(kernel)>
 struct InVectors;
 
-/// A kernel, a plain function, with all that it calls inlined, at each width.
+/// A kernel, a plain function, with everything that it calls inlined, at each width.
 template <auto kernel, class Result, class... Taken>
 struct InVectors<kernel, Result (*)(Taken...)> {
 #ifdef __x86_64__

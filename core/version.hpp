@@ -1,4 +1,4 @@
-// What this program is: recorded in every file that it writes.
+// Identity of this program, recorded in every file that it writes.
 #pragma once
 
 #include <string>
@@ -12,7 +12,7 @@ namespace polybed::core {
 /// "unknown" if they were not under git.
 [[nodiscard]] std::string git_commit();
 
-/// How the program was built, where that matters to who runs it: "sanitizers", else empty.
+/// Build kind where it matters to the user: "sanitizers", else empty.
 [[nodiscard]] std::string build_kind();
 
 }  // namespace polybed::core

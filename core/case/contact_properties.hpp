@@ -1,4 +1,4 @@
-// What two touching bodies are made of, as the case says it: by species, by pair, by default.
+// Material properties of two touching bodies, from the case: by species, by pair, or by default.
 #pragma once
 
 #include <string>
@@ -19,10 +19,10 @@ struct ContactProperties {
 
 /// The properties of a contact of two species, or of a species and "wall".
 ///
-/// A species has its own modulus and Poisson ratio, else those of [dem]; a wall is made of those of [dem]. Of two
-/// partners the means of their friction and restitution hold, as they do in the TFM's exchange and collisions. What
-/// [[contact_pair]] says of the pair, in either order, goes before; its modulus and its Poisson ratio are those of both
-/// partners. Throws CaseError at a name that is none.
+/// The modulus and Poisson ratio of a species are its own, else those in [dem]; a wall uses those in [dem]. Friction
+/// and restitution are the means of the two partners, as in the TFM's exchange and collisions. A [[contact_pair]] of
+/// the two, in either order, takes precedence; its modulus and Poisson ratio apply to both partners. Throws CaseError
+/// for an unknown name.
 [[nodiscard]] ContactProperties contact_properties(const Scene& scene, const std::string& a, const std::string& b);
 
 }  // namespace polybed::core

@@ -10,7 +10,7 @@ namespace {
 
 constexpr int deepest = 32;
 
-/// Goes over a text once; what it counts is what a parser would nest.
+/// Scans a text once and counts the levels that a parser would nest.
 class DepthScanner {
  public:
   explicit DepthScanner(std::string_view text) : text_(text) {}
@@ -32,7 +32,7 @@ class DepthScanner {
   }
 
  private:
-  /// True if this character goes too deep.
+  /// Returns true if this character exceeds the depth.
   bool count(char c) {
     if (c == '[' || c == '{') ++brackets_;
     if (c == ']' || c == '}') brackets_ = std::max(brackets_ - 1, 0);
@@ -43,7 +43,7 @@ class DepthScanner {
     return brackets_ > deepest || dots_ >= deepest;
   }
 
-  /// Goes behind a text in quotes, on one line or on several.
+  /// Skips a text in quotes, on one line or on several.
   void skip_text(char quote) {
     const std::string three(3, quote);
     const bool lines = text_.substr(at_, 3) == three;
@@ -55,7 +55,7 @@ class DepthScanner {
         at_ += end.size();
         return;
       } else if (text_[at_] == '\n' && !lines) {
-        return;  // not closed: the parser's to report
+        return;  // not closed: the parser reports it
       }
     }
   }

@@ -1,4 +1,4 @@
-// How deep a case nests, before a parser follows it down: one that recurses would run out of its stack.
+// The nesting depth of a case, checked before a parser runs: a recursive parser would run out of its stack.
 #pragma once
 
 #include <optional>
@@ -9,9 +9,9 @@
 
 namespace polybed::core {
 
-/// Where a TOML text has a key of more than 32 parts, or more than 32 brackets within brackets; nothing if nowhere.
-/// Deeper than any key of a case. Texts in quotes and comments do not count.
-/// \param file  stands for the text in the problem
+/// Place where a TOML text has a key of more than 32 parts, or more than 32 nested brackets; nothing if there is none.
+/// No key of a case is that deep. Texts in quotes and comments do not count.
+/// \param file  name of the text in the problem
 [[nodiscard]] std::optional<CaseProblem> too_deep(std::string_view text, const std::string& file);
 
 }  // namespace polybed::core

@@ -17,8 +17,8 @@ namespace polybed::core {
 
 namespace {
 
-/// Particles of each species in the checkpoint that a bed starts from: it has the bed. Empty for any other start, and
-/// where the checkpoint is not there yet, is damaged or does not say so: then the case has to.
+/// Particles of each species in the checkpoint that a bed starts from. Empty for any other start, and if the checkpoint
+/// does not exist yet, is damaged or does not contain the numbers: the case must then give them.
 std::vector<std::int64_t> counted_in_checkpoint(const Start& start) {
   if (start.kind != StartKind::checkpoint) return {};
   std::vector<std::int64_t> numbers;
@@ -120,7 +120,7 @@ class CaseReader {
     for (std::size_t n = 0; n < entries->size(); ++n) read_table(*entries->get(n)->as_table(), *known, n);
   }
 
-  /// effects = "auto" is every role left to the chooser: as a table, so that a command line may set one of them.
+  /// Replaces effects = "auto" by a table with every role left to the chooser: a command line can then set one.
   void spell_out_effects(toml::table& root) const {
     const toml::node* effects = root.get("effects");
     if (effects == nullptr || effects->value_exact<std::string>() != automatic) return;
@@ -191,7 +191,7 @@ class CaseReader {
           "--resume --set effects.ROLE=LAW";
   }
 
-  /// How much there is in the bed: said once. The layers of a bed say it, and that it starts in them.
+  /// Checks that the case gives the amount of solids exactly once. The layers of a bed give it, if it starts in them.
   void check_amount() {
     const auto given = [&](const std::string& path) { return is_given(path); };
     const bool by_layers = given("layer");
@@ -210,7 +210,7 @@ class CaseReader {
                                  : ""));
       wrong_.add(key);
     }
-    // A feed is held against the packing of the settled bed, whatever the bed begins as.
+    // A feed is compared with the packing of the settled bed, however the bed starts.
     const bool anywhere = (unsaid && counted) || (scene_.bed.start.kind == StartKind::random && by_particles);
     if (given("bed.solids_fraction") || !wrong_.sound({"bed.solids_fraction", "bed.start"})) return;
     if ((list || anywhere) && scene_.feeds.empty()) return;
@@ -231,7 +231,7 @@ class CaseReader {
     wrong_.add("fluid.name");
   }
 
-  /// A species has one diameter or a distribution, and a distribution what its kind needs and nothing else.
+  /// Checks that a species has one diameter or a distribution, and the distribution only the keys that its kind needs.
   void check_sizes(const toml::table& species) {
     const auto has = [&](const char* key) { return species.contains(key); };
     const std::string kind = species["distribution"].value_or(std::string());
@@ -259,7 +259,7 @@ class CaseReader {
     if (kind == "sieves" && !has("sieves")) missing("species.sieves");
   }
 
-  /// Fills in what follows from the keys, between the rules that this rests on and the others.
+  /// Fills in the keys that follow from others, between the rules that this depends on and the rest.
   void check_scene() {
     const auto has_sizes = [](const Species& species) { return species.sizes.kind.has_value(); };
     const auto by_sizes = [&] { return std::any_of(scene_.species.begin(), scene_.species.end(), has_sizes); };
@@ -270,7 +270,7 @@ class CaseReader {
         values_.add("species.distribution: this program knows no classes");
     }
     if (by_sizes() || !wrong_.sound("species.distribution"))
-      wrong_.add("species.diameter");  // without its classes a distribution has none
+      wrong_.add("species.diameter");  // a distribution without classes has no diameter
     for (const Rule& rule : case_rules())
       if (rule.first && judge(rule)) wrong_.add(rule.keys.front());
     resolve(scene_, name_, wrong_);
@@ -279,7 +279,7 @@ class CaseReader {
     add(rules_.refusals(scene_, wrong_, !values_.problems().empty()));
   }
 
-  /// Whether the scene breaks a rule whose keys are sound, which is reported.
+  /// Judges a rule whose keys are sound, and reports it if the scene breaks it.
   bool judge(const Rule& rule) {
     const std::vector<CaseProblem> problems = problems_of({&rule, 1}, scene_, wrong_);
     add(problems);
@@ -295,7 +295,7 @@ class CaseReader {
 
   [[nodiscard]] bool is_given(const std::string& path) const { return scene_.places.has(path); }
 
-  /// A table that cannot be read: none of its keys has a value.
+  /// Marks the keys of an unreadable table as missing.
   void wrong_table(std::string_view table, const toml::source_region& place, const std::string& message) {
     values_.add(place, message);
     for (const Key& key : find_table(table)->keys) wrong_.add(key.path());

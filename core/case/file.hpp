@@ -1,4 +1,4 @@
-// Reads a case file, or a case resolved before, into a scene; finds everything that is wrong with it at once.
+// Reads a case file, or a resolved case, into a scene, and reports everything that is wrong with it at once.
 #pragma once
 
 #include <filesystem>
@@ -14,9 +14,9 @@
 
 namespace polybed::core {
 
-/// What becomes of the roles of [effects] that a case does not name, unless it says so itself by effects.others.
+/// How roles are set that [effects] does not name and effects.others does not decide.
 enum class OtherRoles { off, chosen };
-/// The name in [effects] that says it: "auto", they are chosen; "none", they are off.
+/// The key in [effects] for this: "auto" chooses them, "none" turns them off.
 inline constexpr const char* other_roles = "others";
 
 /// Reads a case file. Throws CaseError with all problems (place, key, value, range, suggestion), FileError if
@@ -24,9 +24,9 @@ inline constexpr const char* other_roles = "others";
 /// \param overrides  "key=value" each, e.g. "inlet.superficial_velocity=37 mm/s",
 /// "species.fine.diameter=1 mm"
 /// \param roles      what [effects] may name
-/// \param classes    how a distribution of sizes becomes species; without it a case may have none
-/// \param rules      what a scene and the models that are to run it must satisfy beyond case_rules(); reported with all others
-/// \param others     what becomes of roles that the case does not name
+/// \param classes    rule that turns a size distribution into species; a case without it must have no distribution
+/// \param rules      further rules of the scene and its models besides case_rules(); all are reported together
+/// \param others     how roles are set that the case does not name
 [[nodiscard]] Scene read_case(const std::filesystem::path& path, std::span<const std::string> overrides,
                               std::span<const Role> roles, const ClassRule& classes = {}, const Rulebook& rules = {},
                               OtherRoles others = OtherRoles::off);
@@ -36,13 +36,13 @@ inline constexpr const char* other_roles = "others";
                                std::span<const Role> roles, const ClassRule& classes = {}, const Rulebook& rules = {},
                                OtherRoles others = OtherRoles::off);
 
-/// The whole case in SI as TOML; reads back to the same scene.
+/// The whole case in SI as TOML. It reads back to the same scene.
 [[nodiscard]] std::string resolved_case(const Scene& scene);
 
 /// FNV-1a hash of a text, 64 bits, as 16 hexadecimal digits.
 [[nodiscard]] std::string text_hash(std::string_view text);
 
-/// Of the case written out whole and of the law file that it names, by content.
+/// Hash of the resolved case and of the content of the law file that it names.
 [[nodiscard]] std::string case_hash(const Scene& scene);
 
 }  // namespace polybed::core

@@ -31,7 +31,7 @@ std::string short_number(double value) {
   return fmt::format("{}e{}", text.substr(0, exponent), std::atoi(text.c_str() + exponent + 1));
 }
 
-/// Edits that turn one text into the other: insert, delete, replace, swap of neighbours.
+/// Number of edits that turn one text into the other: insert, delete, replace, swap of neighbours.
 std::size_t edits(std::string_view a, std::string_view b) {
   std::vector<std::size_t> before(b.size() + 1), last(b.size() + 1), now(b.size() + 1);
   std::iota(last.begin(), last.end(), std::size_t(0));

@@ -16,7 +16,7 @@ namespace polybed::core {
 
 using Points = std::vector<std::pair<double, double>>;
 
-/// A key's value; nothing if it is not set. A choice is its word.
+/// A key's value; nothing if it is not set. A choice is stored as its word.
 using Value = std::variant<std::monostate, double, std::int64_t, bool, std::string, std::vector<double>,
                            std::vector<std::int64_t>, std::vector<std::string>, Points>;
 
@@ -35,8 +35,8 @@ struct Key {
   Range range{};
   std::vector<std::string_view> words{};  ///< allowed texts; empty: any
   bool required = false;
-  bool replaced = false;   ///< the resolved case has what it stands for, and not it
-  std::string standard{};  ///< default as text that a case could give; empty: none
+  bool replaced = false;   ///< the resolved case contains its replacement instead
+  std::string standard{};  ///< default as text that a case could give; empty: there is no default
   std::function<Value(const Scene&, std::size_t index)>
       get{};  ///< index: entry of an array of tables, e.g. the species
   std::function<void(Scene&, std::size_t index, const Value&)> set{};
@@ -50,8 +50,8 @@ struct Table {
   std::string_view name;
   bool array = false;  ///< as [[species]]
   std::vector<Key> keys;
-  std::function<std::size_t(const Scene&)> count;           ///< entries in a scene; 1 if it is no array
-  std::function<void(Scene&, std::size_t count)> resize{};  ///< of an array
+  std::function<std::size_t(const Scene&)> count;           ///< entries in a scene; 1 without an array
+  std::function<void(Scene&, std::size_t count)> resize{};  ///< sets the number of entries of an array
 };
 
 /// All tables and their keys. [effects] has a key for each role and is not listed.
@@ -66,13 +66,13 @@ struct Table {
 /// A table as a case file heads it: "[column]", "[[species]]".
 [[nodiscard]] std::string header(const Table& table);
 
-/// Kind of a key's value for people: "length, m", "list of counts", "text" ...
+/// Description of a key's value for people: "length, m", "list of counts", "text" ...
 [[nodiscard]] std::string kind_name(const Key& key);
 
 /// Range for people: "above 0, at most 1"; empty if there is none.
 [[nodiscard]] std::string range_text(const Key& key);
 
-/// Whether a text is a word; a word that ends in FILE stands for any name of a file there.
+/// Whether a text matches a word. In a word that ends in FILE, any file name matches FILE.
 [[nodiscard]] bool fits_word(std::string_view word, std::string_view text);
 
 /// Whether a text is one of the key's words.

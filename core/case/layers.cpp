@@ -14,7 +14,7 @@ namespace {
 /// Axes of the column across which a layer is cut, in the order of its corners.
 constexpr std::array<std::size_t, 2> across{0, 2};
 
-/// Without its solids.
+/// Cross-section of a layer, without its solids.
 BedPart footprint(const Scene& scene, const Layer& layer) {
   BedPart part;
   for (std::size_t d = 0; d < std::min({layer.from.size(), layer.to.size(), across.size()}); ++d) {
@@ -78,8 +78,8 @@ std::vector<BedPart> parts_of_layers(const Scene& scene) {
   return parts;
 }
 
-/// Of the cross-section of the column, what two parts have in common; nothing if they touch up to round-off, as 12.5 mm
-/// and 0.0125 m may.
+/// Common area of two parts, as a share of the cross-section of the column; nothing if they touch up to round-off, as
+/// with 12.5 mm and 0.0125 m.
 double common_area(const BedPart& a, const BedPart& b) {
   constexpr double touching = 1e-9;
   double area = 1;

@@ -1,4 +1,4 @@
-// The parts that a bed starts in: what of the bed follows from [[layer]], and where each part lies.
+// The parts that a bed starts in: bed values that follow from [[layer]], and the position of each part.
 #pragma once
 
 #include <array>
@@ -15,7 +15,7 @@ struct BedPart {
   double solids_fraction = 0;                  ///< at the start; 0: not given
 
   [[nodiscard]] double all_solids() const;
-  /// Over the cross-section of the column.
+  /// Share of the column's cross-section.
   [[nodiscard]] double area() const { return (to[0] - from[0]) * (to[1] - from[1]); }
 };
 
@@ -29,24 +29,24 @@ struct Extent {
   double low = 0, high = 0;
 };
 
-/// Where parts of these heights, m, lie: each on the highest of those before it that it lies over.
+/// Positions of parts of these heights, m. Each rests on the highest of the earlier parts below it.
 [[nodiscard]] std::vector<Extent> stacked(const std::vector<BedPart>& parts, const std::vector<double>& height);
 
-/// The same, with the height of each part at its solids fraction at the start; in a tapered column as wide as it is.
+/// The same from the solids fraction of each part at the start. In a tapered column a part is as wide as the column.
 [[nodiscard]] std::vector<Extent> stacked(const std::vector<BedPart>& parts, const Column& column);
 
 /// Height of the highest part, m; 0 without parts.
 [[nodiscard]] double top_of(const std::vector<Extent>& extents);
 
-/// Share of a part's cross-section that rests on parts whose top is at the part's lower face.
-/// \param n  which  \param extents  of all
+/// Share of the cross-section of part n that rests on parts whose top is at its lower face.
+/// \param extents  of all parts
 [[nodiscard]] double supported_share(const std::vector<BedPart>& parts, const std::vector<Extent>& extents,
                                      std::size_t n);
 
 /// Totals of the layers, for the keys of [bed].
 struct LayerTotals {
   double solids = 0;          ///< volume over the cross-section of the column, m
-  std::vector<double> share;  ///< of each species in it
+  std::vector<double> share;  ///< share of each species in it
 };
 
 /// \param scene  with a volume_share of every species and a solids_fraction in each layer

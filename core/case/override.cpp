@@ -10,11 +10,11 @@ namespace polybed::core {
 
 namespace {
 
-/// A value of the command line: TOML if it reads as such, else a text.
+/// A value from the command line: TOML if it parses as TOML, else a text.
 toml::table parse_override(const std::string& value, const std::string& source) {
   try {
     toml::table parsed = toml::parse("value = " + value, source);
-    if (parsed.size() == 1) return parsed;  // a line end and a second key would go unread
+    if (parsed.size() == 1) return parsed;  // a line end and a second key would be ignored
   } catch (const toml::parse_error&) {
   }
   std::ostringstream quoted;

@@ -1,4 +1,4 @@
-// Values of the command line put into a case: --set inlet.superficial_velocity="37 mm/s", species.fine.diameter=1.
+// Applies values from the command line to a case: --set inlet.superficial_velocity="37 mm/s", species.fine.diameter=1.
 #pragma once
 
 #include <toml++/toml.h>
@@ -9,7 +9,7 @@
 
 namespace polybed::core {
 
-/// Puts one "KEY=VALUE" into the tree in place of what the file says; notes a problem if there is no such place.
+/// Puts one "KEY=VALUE" into the tree in place of the file's value. Reports a problem if the key does not exist.
 /// \param given  KEY by its path; an entry of an array of tables by its name or its number from 0.
 ///               VALUE as TOML if it reads as such, else a text, so that units need no inner quotes.
 void apply_override(toml::table& root, const std::string& given, CaseValues& values);

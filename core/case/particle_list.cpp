@@ -18,8 +18,8 @@ namespace polybed::core {
 namespace {
 
 constexpr std::array<std::string_view, 10> column_names{"species", "x", "y", "z", "vx", "vy", "vz", "wx", "wy", "wz"};
-constexpr std::size_t required_columns = 4;  ///< the first of them
-constexpr std::size_t most_problems = 100;   ///< told one by one; a wrong column of a million rows fills no screen
+constexpr std::size_t required_columns = 4;  ///< the first ones are required
+constexpr std::size_t most_problems = 100;   ///< problems listed: a wrong column of a million rows floods no screen
 
 std::string_view trimmed(std::string_view text) {
   while (!text.empty() && (text.front() == ' ' || text.front() == '\t')) text.remove_prefix(1);
@@ -46,7 +46,7 @@ std::vector<Cell> cells_of(std::string_view line) {
   }
 }
 
-/// One reading of a list: what is in it so far, and what is wrong with it.
+/// Reads a list: collects its particles and its problems.
 class ListReader {
  public:
   ListReader(const Scene& scene, std::string file) : scene_(scene), file_(std::move(file)) {}
@@ -63,7 +63,7 @@ class ListReader {
         continue;
       }
       read_header(cells_of(line));
-      if (!problems_.empty()) throw StartError(problems_);  // without the columns nothing else can be said
+      if (!problems_.empty()) throw StartError(problems_);  // nothing else can be checked without the columns
     }
     line_ = 0;
     if (problems_.empty() && list_.species.empty())

@@ -15,9 +15,9 @@ struct ParticleList {
 };
 
 /// Reads the file that scene.bed.start names: a header with species, x, y, z and any of vx, vy, vz, wx, wy, wz in any
-/// order, then a particle a line in SI units; what has no column is zero.
+/// order, then one line per particle in SI units. Missing columns are zero.
 ///
-/// Throws CaseError with all that is wrong (line, column, suggestion), among it centres outside the column; FileError
+/// Throws CaseError with all problems (line, column, suggestion), including centres outside the column, and FileError
 /// if the file cannot be read. The scene must be resolved.
 [[nodiscard]] ParticleList read_particle_list(const Scene& scene);
 

@@ -29,7 +29,7 @@ const Place* Places::of_entry(std::span<const std::string> keys, std::size_t ent
 const Place* Places::of_any(std::span<const std::string> keys) const {
   for (const std::string& key : keys)
     if (const auto given = at_.find(key); given != at_.end())
-      return given->second.size() == 1 ? &given->second.begin()->second : nullptr;  // else it may be another entry's
+      return given->second.size() == 1 ? &given->second.begin()->second : nullptr;  // else maybe another entry's
   for (const std::string& key : keys)
     if (const auto given = at_.find(table_in(key)); given != at_.end())
       return given->second.size() == 1 ? &given->second.begin()->second : nullptr;

@@ -1,4 +1,4 @@
-// Where a case gives its keys and tables: problems are reported there.
+// Positions of keys and tables in a case file, for reports of problems.
 #pragma once
 
 #include <cstddef>
@@ -15,7 +15,7 @@
 namespace polybed::core {
 
 struct Place {
-  std::string file;  ///< or the override of the command line, which has no line
+  std::string file;  ///< file name, or the override on the command line, which has no line
   int line = 0, column = 0;
 };
 
@@ -26,12 +26,12 @@ class Places {
   explicit Places(std::string file) : file_(std::move(file)) {}
 
   /// Adds a key by its path, "jet.from", or a table by its name. Returns false if an entry of the array has it already.
-  /// \param entry  of an array of tables, else 0
+  /// \param entry  index in an array of tables, else 0
   bool add(const std::string& path, std::size_t entry, Place place);
   [[nodiscard]] bool has(const std::string& path) const { return at_.contains(path); }
 
-  /// A problem at the first of these keys that the case gives, else at the first of their tables, else of the file as a
-  /// whole. \param entry  of the first key's array of tables; a key of several entries has a place only if it is known
+  /// A problem at the first of these keys that the case gives, else at the first of their tables, else at the file as a
+  /// whole. \param entry  in the first key's array of tables; a key in several entries has a place only with it
   [[nodiscard]] CaseProblem problem(std::span<const std::string> keys, std::string message,
                                     std::optional<std::size_t> entry = {}) const;
   [[nodiscard]] CaseProblem problem(std::initializer_list<std::string> keys, std::string message) const {

@@ -1,5 +1,5 @@
-// What an effect is called and where it acts. A model offers its roles as data; the case file is checked
-// against them, and `polybed list`, the schema and the docs are made from them.
+// The names of effects and the models they act in. A model lists its roles as data; the reader checks the case file
+// against them, and `polybed list`, the schema and the docs are generated from them.
 #pragma once
 
 #include <string>
@@ -9,12 +9,12 @@ namespace polybed::core {
 
 struct Law {
   std::string name;         ///< as in the case file
-  std::string help;         ///< what it is and where it holds, in plain words; at most 78 columns
+  std::string help;         ///< what it is and where it is valid, in plain words; at most 78 columns
   std::string source = {};  ///< equation and reference, for `polybed explain`
-  std::string note = {};    ///< what several laws of a role share; `polybed list` prints it once
+  std::string note = {};    ///< text common to several laws of a role; `polybed list` prints it once
 };
 
-/// A law to take, and in which bed.
+/// A recommended law, and the bed that it suits.
 struct Advice {
   std::string law, bed;
 };
@@ -26,7 +26,7 @@ struct Role {
   std::string help;                 ///< one line
   std::string absent;               ///< what the other model does without it, e.g. "particles have contacts instead"
   std::vector<Law> laws;            ///< "none" is always allowed and need not be listed
-  std::vector<Advice> advice = {};  ///< the best first; empty: what the laws are says it
+  std::vector<Advice> advice = {};  ///< best first; empty: the properties of the laws decide
 };
 
 }  // namespace polybed::core

@@ -1,4 +1,4 @@
-// What cases of earlier versions and of other programs may name and this version does not read.
+// Names from earlier versions and from other programs that this version does not read.
 #pragma once
 
 #include <string>
@@ -6,7 +6,7 @@
 
 namespace polybed::core {
 
-/// "; " and what to do instead, for a key, or for a word of a key, that was removed; else empty.
+/// "; " and what to do instead, for a removed key or word of a key; else empty.
 /// \param path  e.g. "tfm.momentum"  \param word  empty: the key itself
 [[nodiscard]] std::string instead_of_removed(std::string_view path, std::string_view word = "");
 

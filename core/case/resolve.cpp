@@ -21,7 +21,7 @@ void fill_size(Scene& scene) {
     c.size = {c.given_size[0], c.given_size[2], c.given_size[1]};
     return;
   }
-  if (c.around_axis()) {  // the depth that gives it the area of the circle
+  if (c.around_axis()) {  // the depth that gives the circle's area
     c.size = {c.given_size[0], c.given_size[1], std::numbers::pi * c.given_size[0]};
     return;
   }
@@ -53,7 +53,7 @@ void fill_inlet(Scene& scene) {
   inlet.flow_rate.clear();
 }
 
-/// Shares and height of particles that are counted.
+/// Fills in shares and height from the numbers of particles.
 void fill_amount(Scene& scene) {
   Bed& bed = scene.bed;
   const double area = scene.column.cross_section();
@@ -67,7 +67,7 @@ void fill_amount(Scene& scene) {
   bed.static_height = scene.column.filled_height(total / (area * bed.solids_fraction));
 }
 
-/// What of the bed follows from [[layer]], where there is any.
+/// Fills in the bed values that follow from [[layer]], if there are layers.
 void fill_from_layers(Scene& scene, WrongKeys& wrong) {
   const bool sound = wrong.sound({"layer", "layer.", "species.name", "column.size", "bed.volume_share",
                                   "bed.static_height", "bed.solids_fraction", "bed.particles"});
@@ -77,7 +77,7 @@ void fill_from_layers(Scene& scene, WrongKeys& wrong) {
   if (!(scene.bed.solids_fraction > 0)) wrong.add("bed.solids_fraction");
 }
 
-/// A path of a list is meant from the working directory or, if nothing is there, from the folder of the case.
+/// A path of a list refers to the working directory or, if there is no such file, to the folder of the case.
 void find_list(Bed& bed, const std::string& case_name) {
   namespace fs = std::filesystem;
   const auto is_file = [](const fs::path& path) {
@@ -119,7 +119,7 @@ void resolve(Scene& scene, const std::string& case_name, WrongKeys& wrong) {
   }
   Bed& bed = scene.bed;
   if (!wrong.sound("bed.start")) return;
-  if (bed.start.kind == StartKind::list) return find_list(bed, case_name);  // which says itself how much there is
+  if (bed.start.kind == StartKind::list) return find_list(bed, case_name);  // the list itself gives the amount
   const bool counted = !bed.particles.empty();
   const bool known = wrong.sound({"bed.particles", "species.name", "species.diameter", "column.size", "column.depth",
                                   "dem.skin", "bed.solids_fraction"});

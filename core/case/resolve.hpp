@@ -1,4 +1,4 @@
-// What follows from the keys of a case.
+// Values that follow from the keys of a case.
 #pragma once
 
 #include <cstdint>
@@ -9,17 +9,17 @@
 
 namespace polybed::core {
 
-/// Of all species, m.
+/// Largest diameter of all species, m.
 [[nodiscard]] double largest_diameter(const Scene& scene);
 
-/// Of spheres of a species, m3.
+/// Total volume of the spheres of a species, m3.
 [[nodiscard]] double volume_of(std::int64_t number, const Species& species);
 
-/// Fills in what follows from sound keys: axes of the column, direction of gravity, materials of the species, shares
-/// and height of particles that are counted or of layers, the place of a list, defaults of output, one time for each
-/// event.
-/// \param case_name  of the file beside which a list may lie
-/// \param wrong      keys that nothing follows from; what cannot be filled in is added
+/// Fills in the values that follow from sound keys: axes of the column, direction of gravity, materials of the species,
+/// shares and height from numbers of particles or from layers, the path of a list, defaults of output, one time for
+/// each event.
+/// \param case_name  name of the case file; a list can lie in the same folder
+/// \param wrong      keys with errors, which are not used; keys that cannot be filled in are added
 void resolve(Scene& scene, const std::string& case_name, WrongKeys& wrong);
 
 }  // namespace polybed::core

@@ -1,4 +1,4 @@
-// The case written out whole, in SI: every key with its value, given or not.
+// The resolved case, in SI: every key with its value, given or not.
 #include <fmt/format.h>
 
 #include <string>
@@ -42,7 +42,7 @@ struct AsToml {
   }
 };
 
-/// Whether a key of [bed] says nothing: it follows from particles that are counted or listed, or was not given.
+/// Whether a key of [bed] has no meaning: it follows from counted or listed particles, or was not given.
 bool idle(const Scene& scene, std::string_view name) {
   const bool follows = !scene.bed.particles.empty() || scene.bed.start.kind == StartKind::list;
   if (name == "volume_share" || name == "static_height") return follows;
@@ -76,7 +76,7 @@ std::string resolved_case(const Scene& scene) {
       continue;
     }
     const Table& table = *find_table(name);
-    // What is left alone of these has no line.
+    // These have no line when they are at their defaults.
     const bool may_be_absent = name == "chooser" || name == "inversion" || name == "calibrate" || name == "resolve";
     for (std::size_t n = 0; n < table.count(scene); ++n) {
       const std::string text = entries(scene, table, n);

@@ -1,4 +1,4 @@
-// What species and the bed require: names, pairs, how much there is, and where it starts.
+// Requirements on species and the bed: names, pairs, amounts, and the start.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -16,9 +16,9 @@ namespace polybed::core {
 
 namespace {
 
-const std::string wall = "wall";  ///< of contact pairs
+const std::string wall = "wall";  ///< name of the wall in contact pairs
 
-/// True if a name may stand in the header of a CSV file, in the path of a dataset and in XML.
+/// Whether a name is valid in the header of a CSV file, in the path of a dataset and in XML.
 bool can_name_files(const std::string& name) {
   return !name.empty() && std::none_of(name.begin(), name.end(), [](unsigned char c) {
     return c < 0x20 || c == 0x7f || std::string_view(",/<>&\"\\").find(char(c)) != std::string_view::npos;
@@ -27,7 +27,7 @@ bool can_name_files(const std::string& name) {
 
 Broken names_taken(const Scene& scene) {
   Broken broken;
-  std::set<std::string> names{wall, "fluid"};  // of contact pairs and of the dataset u_fluid
+  std::set<std::string> names{wall, "fluid"};  // reserved by contact pairs and by the dataset u_fluid
   for (std::size_t j = 0; j < scene.species.size(); ++j)
     if (!names.insert(scene.species[j].name).second)
       broken.add({scene.species[j].name}, entry_of(scene, scene.species, j));
@@ -41,7 +41,7 @@ Broken names_unfit(const Scene& scene) {
   return broken;
 }
 
-constexpr double least_class = 1e-8, greatest_class = 1;  // m, as of species.diameter
+constexpr double least_class = 1e-8, greatest_class = 1;  // m, as for species.diameter
 
 Broken classes_out_of_range(const Scene& scene) {
   Broken broken;
@@ -90,7 +90,7 @@ Broken pairs_twice(const Scene& scene) {
   return broken;
 }
 
-/// A rule that each pair of species breaks by itself.
+/// A rule that each pair of species can break.
 Rule rule_of_pairs(const std::string& message, bool (*wrong)(const std::vector<std::string>& between)) {
   return {{"contact_pair.between"}, message, [wrong](const Scene& scene) {
             Broken broken;
@@ -115,7 +115,7 @@ bool has_classes(const Scene& scene) {
          std::any_of(scene.species.begin(), scene.species.end(), [](const Species& s) { return s.sizes.kind; });
 }
 
-/// One number for each species, of those that say how much there is.
+/// One number for each species, for the species that give the amount.
 template <class Number>
 Broken miscounted(const Scene& scene, const std::vector<Number>& numbers, bool acts) {
   if (!acts || is_list(scene) || numbers.size() == scene.species.size()) return {};
@@ -143,7 +143,7 @@ std::vector<Rule> amount_rules() {
           {{"bed.volume_share", "bed.particles", "bed.start", "species.name"},
            "bed.volume_share has {} numbers, there are {} species",
            [](const Scene& scene) {
-             const bool follows = !scene.bed.particles.empty() ||  // from these, or from the layers
+             const bool follows = !scene.bed.particles.empty() ||  // follows from these, or from the layers
                                   (!scene.layers.empty() && scene.bed.volume_share.empty());
              return miscounted(scene, scene.bed.volume_share, !follows);
            },

@@ -1,4 +1,4 @@
-// What columns and the times of output require, and the list of all rules.
+// Requirements on columns and on the times of output, and the list of all rules.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -32,7 +32,7 @@ Broken too_many_cells(const Scene& scene) {
   return all > most ? Broken({fmt::format("{:.3g}", all), fmt::format("{:.0f}", most)}) : Broken();
 }
 
-/// A column that a particle does not fit into has no solids fraction that means anything.
+/// A column narrower than a particle has no meaningful solids fraction.
 Broken no_room(const Scene& scene) {
   constexpr std::array<const char*, 3> sides{"width", "height", "depth"};
   Broken broken;
@@ -145,7 +145,7 @@ std::vector<Rule> shear_rules() {
 
 constexpr double most_outputs = 1e7;
 
-/// Files without end, and times that floating point cannot tell apart.
+/// Rejects endless series of files, and times that floating point cannot distinguish.
 Rule countable(const std::string& key, std::optional<double> OutputPlan::*every) {
   return {{"output." + key, "run.until"},
           "output." + key + " = {} s: {} times until run.until = {} s; at most {}: take a longer one",

@@ -1,4 +1,4 @@
-// Keys that cannot act beside others.
+// Keys that have no effect because of other keys.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -11,9 +11,9 @@ namespace {
 
 using Test = bool (*)(const Scene&);
 
-/// What can say nothing in some scenes.
+/// A key that has no effect in some scenes.
 struct Idle {
-  std::string key, what;  ///< where it is reported, and how it is named there
+  std::string key, what;  ///< where it is reported, and its name there
   Test set;
 };
 
@@ -25,7 +25,7 @@ bool has_discharges(const Scene& scene) { return !scene.discharges.empty(); }
 bool is_given_at_the_top(const Scene& scene) { return scene.inlet.at == ColumnEnd::top; }
 bool is_compressible(const Scene& scene) { return scene.fluid.compressible(); }
 
-/// One rule for each of them. \param rests_on  keys beside their own
+/// One rule for each of them. \param rests_on  keys besides their own
 std::vector<Rule> cannot_act(const std::vector<Idle>& idle, Test where, const std::string& why,
                              const std::vector<std::string>& rests_on) {
   std::vector<Rule> rules;
@@ -73,7 +73,7 @@ std::vector<Rule> in_a_sheared_box() {
                     " in a sheared box: its fluid moves with its flow", {"dem.shear_rate", "fluid.name"});
 }
 
-/// Of keys that say how much there is or how densely it starts. \param random  nor in a bed placed at random
+/// For keys that give the amount or the initial density. \param random  also without effect in a randomly placed bed
 Rule idle_at_start(const std::string& key, bool random, Test set) {
   return {
       {"bed." + key, "bed.start"}, "bed." + key + " cannot act: bed.start = \"{}\"", [set, random](const Scene& scene) {
@@ -90,7 +90,7 @@ std::vector<Rule> beside_the_start() {
           idle_at_start("particles", false, [](const Scene& s) { return !s.bed.particles.empty(); })};
 }
 
-/// Two of them, from the least to the greatest.
+/// Two values, from the least to the greatest.
 Rule is_a_range(const std::string& key, std::vector<double> Chooser::*range) {
   return {
       {"chooser." + key}, "chooser." + key + ": two values, the least and the greatest", [range](const Scene& scene) {
@@ -99,7 +99,7 @@ Rule is_a_range(const std::string& key, std::vector<double> Chooser::*range) {
       }};
 }
 
-/// One of them, or two from the least to the greatest.
+/// One value, or two from the least to the greatest.
 Rule is_a_bracket(const std::string& key, std::vector<double> Inversion::*bracket) {
   return {{"inversion." + key},
           "inversion." + key + ": one value, or two, the least and the greatest",

@@ -1,4 +1,4 @@
-// What [[layer]] requires: what each contains, that it lies on those below it, and that nothing else says it, too.
+// Requirements on [[layer]]: its contents, its position on the layers below it, and no second definition of either.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -14,7 +14,7 @@ namespace polybed::core {
 
 namespace {
 
-/// Each layer that breaks a rule by itself. \param words  of a layer and its number from 1; empty: it keeps the rule
+/// A rule that each layer can break. \param words  of a layer and its number from 1; empty: the rule is satisfied
 template <class Words>
 Broken layers_that_break(const Scene& scene, const Words& words) {
   Broken broken;
@@ -42,7 +42,7 @@ Broken height_otherwise(const Scene& scene) {
   return broken_if(!(std::abs(scene.bed.static_height - height) <= 1e-9 * height));
 }
 
-/// What a bed with layers must not say, or only as they do.
+/// Keys that a bed with layers must not give, or only with the values of the layers.
 std::vector<Rule> beside_layers() {
   return {{{"bed.start", "layer"},
            "bed.start = \"{}\" and [[layer]] both say where the bed starts: leave bed.start out",
@@ -98,7 +98,7 @@ Broken layers_not_whole(const Scene& scene) {
   });
 }
 
-/// Of what each layer contains.
+/// Rules for the contents of each layer.
 std::vector<Rule> within_layers() {
   return {
       {{"layer", "layer.species", "layer.volume_share"},

@@ -1,5 +1,5 @@
-// What parts of the column's ends and sides require: jets, feeds, discharges; layers, and an opening that particles
-// fall through.
+// Requirements on parts of the column's ends and sides (jets, feeds, discharges), on layers, and on an opening that
+// particles fall through.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -14,10 +14,10 @@ namespace polybed::core {
 
 namespace {
 
-/// Coordinates of a corner.
+/// Number of coordinates of a corner.
 std::size_t corner_size(const Scene& scene) { return scene.column.given_size.size() == 3 ? 2 : 1; }
 
-/// A whole end or side, or the whole cross-section, of a layer.
+/// The extent of a whole end or side or, for a layer, of the whole cross-section.
 template <class Part>
 bool is_all(const Part& part) {
   return !std::is_same_v<Part, Jet> && part.from.empty() && part.to.empty();
@@ -66,7 +66,7 @@ Broken beside_the_end(const Scene& scene, const std::vector<Part>& parts) {
   return broken;
 }
 
-/// True if two parts have nothing in common; a part without corners is all of its end or side.
+/// True if two parts have nothing in common. A part without corners is its whole end or side.
 template <class Part, class Other>
 bool apart(const Part& a, const Other& b) {
   if (a.at != b.at) return true;
@@ -92,7 +92,7 @@ Broken at_the_top(const std::vector<Part>& parts) {
   return broken;
 }
 
-/// What enters where a discharge takes it.
+/// Finds inflows that overlap a discharge.
 Broken discharges_overlap_inflows(const Scene& scene) {
   Broken broken;
   for (std::size_t n = 0; n < scene.discharges.size(); ++n) {
@@ -144,7 +144,7 @@ Broken feeds_denser_than_the_bed(const Scene& scene) {
   return broken;
 }
 
-/// Of jets, feeds or discharges: where they lie.
+/// Rules for the position of jets, feeds or discharges.
 template <class Part>
 std::vector<Rule> place_rules(const std::string& table, std::vector<Part> Scene::*parts) {
   const std::string from = table + ".from", to = table + ".to", at = table + ".at";
@@ -225,7 +225,7 @@ std::vector<Rule> feed_rules() {
   return rules;
 }
 
-/// Of the opening that particles fall through. \param broken  words after the width of the opening
+/// A rule for the opening that particles fall through. \param broken  words after "the width of the opening"
 Rule opening_rule(std::vector<std::string> rests_on, const std::string& message,
                   std::function<Broken(const Scene&)> broken) {
   rests_on.insert(rests_on.begin(), "dem.opening");

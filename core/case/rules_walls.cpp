@@ -1,4 +1,4 @@
-// What a round column and walls inside the column require.
+// Requirements on a round column and on walls inside the column.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -15,8 +15,8 @@ bool has_round_wall(const Scene& scene) {
   return std::any_of(scene.walls.begin(), scene.walls.end(), [](const InnerWall& wall) { return wall.is_round(); });
 }
 
-/// A wall that a particle would touch on all sides at once has no nearest point, and Hertz' contact is no spot there:
-/// a round one is at least twice as wide as particles.
+/// A particle that touches a wall on all sides at once has no nearest point, and Hertz' contact is no longer a spot. A
+/// round wall must be at least twice as wide as the particles.
 bool too_narrow(double diameter, const Species& species) { return 2 * species.diameter > diameter * (1 + 1e-12); }
 
 Broken not_round(const Scene& scene) {
@@ -38,7 +38,7 @@ Broken column_too_narrow(const Scene& scene) {
 
 bool is_uneven(double a, double b) { return std::abs(a - b) > 1e-9 * std::abs(b); }
 
-/// More pairs at one height than a step has, or a step at an end.
+/// Finds more than two points at one height, or a step at an end.
 Broken profile_unsteady(const Scene& scene) {
   const auto& profile = scene.column.profile;
   for (const std::size_t n : {std::size_t(1), profile.size() - 1})
@@ -49,7 +49,7 @@ Broken profile_unsteady(const Scene& scene) {
   return {};
 }
 
-/// The first and the last height.
+/// Checks the first and the last height.
 Broken profile_of_another_height(const Scene& scene) {
   const Column& column = scene.column;
   if (!column.is_tapered() || column.given_size.empty()) return {};
@@ -67,7 +67,7 @@ Broken profile_of_another_width(const Scene& scene) {
   return Broken({fmt::format("{:.6g}", widest), fmt::format("{:.6g}", width)});
 }
 
-/// The cells in the middle have to be open all the way up.
+/// The cells in the middle must be open over the whole height.
 Broken profile_too_narrow(const Scene& scene) {
   constexpr double least = 4;
   const Column& column = scene.column;
@@ -86,10 +86,10 @@ Broken layers_with_corners(const Scene& scene) {
   return broken;
 }
 
-/// Whether a part of the cross-section, a feed's or a jet's, has a corner beyond a round column.
+/// Whether a part of the cross-section, for a feed or a jet, has a corner beyond a round column.
 template <class Part>
 bool is_beyond_the_circle(const Column& column, const Part& part, ColumnFace end) {
-  if (is_side(end)) return false;  // which another rule refuses
+  if (is_side(end)) return false;  // another rule rejects it
   const double within = 0.5 * column.diameter_at(end) * (1 + 1e-12), centre = 0.5 * column.size[0];
   if (column.around_axis()) return column.is_tapered() && !part.to.empty() && part.to[0] > within;
   if (!column.is_round() || part.from.size() != 2 || part.to.size() != 2) return false;
@@ -108,7 +108,7 @@ Broken feeds_beyond_the_circle(const Scene& scene) {
   return broken;
 }
 
-/// Of jets or discharges.
+/// A rule for jets or discharges.
 template <class Part>
 Rule beyond_the_circle(const std::string& table, std::vector<Part> Scene::*parts) {
   const std::string from = table + ".from", to = table + ".to";
@@ -124,7 +124,7 @@ Rule beyond_the_circle(const std::string& table, std::vector<Part> Scene::*parts
           }};
 }
 
-/// Cells so long that a wall may cut one off from all others.
+/// Cells so long that a wall could cut one off from all others.
 Broken long_cells_in_a_cylinder(const Scene& scene) {
   constexpr double most = 4;
   const Column& column = scene.column;
@@ -252,7 +252,7 @@ Broken walls_too_narrow(const Scene& scene) {
   return broken;
 }
 
-/// Flat walls where the column or another wall is round: where they meet both would push.
+/// Flat walls next to a round column or another round wall: both would push where they meet.
 Broken flat_beside_round(const Scene& scene) {
   Broken broken;
   const bool round = scene.column.is_round() || has_round_wall(scene);
@@ -261,7 +261,7 @@ Broken flat_beside_round(const Scene& scene) {
   return broken;
 }
 
-/// Of walls inside the column: broken where a scene has one and `wrong` holds.
+/// A rule for walls inside the column: broken if a scene has one and `wrong` is true.
 Rule wall_rule(const std::string& key, const std::string& message, bool (*wrong)(const Scene&)) {
   return {{"wall.from", key}, "[[wall]]: " + message, [wrong](const Scene& scene) {
             return broken_if(!scene.walls.empty() && wrong(scene));

@@ -1,4 +1,4 @@
-// The scene: what a case file says, in SI units, one plain struct per table. No law and no equation lives here.
+// The scene: the content of a case file in SI units, one plain struct per table. It contains no law and no equation.
 #pragma once
 
 #include <array>
@@ -19,17 +19,17 @@ struct Column {
   ColumnShape shape = ColumnShape::box;   ///< a cylinder is upright; its diameter is the width and the depth
   std::vector<double> given_size;         ///< as the case gives it: width, height or width, depth, height, m
   std::vector<std::int64_t> given_cells;  ///< likewise
-  /// Height and diameter of a round column, m, upward, linear between; two at one height are a step. Empty: even.
+  /// Height and diameter of a round column, m, upward, linear between. Two at one height are a step. Empty: uniform.
   std::vector<std::pair<double, double>> profile;
   std::optional<double> depth;        ///< of a 2-D column, m; else twice the largest diameter and skin
-  int dimensions = 2;                 ///< follows, as the next two do
+  int dimensions = 2;                 ///< derived, like the next two
   std::array<double, 3> size{};       ///< width, height, depth, m (axes x, y, z; 2-D: depth is `depth`)
   std::array<int, 3> cells{1, 1, 1};  ///< along x, y, z; 1 along z in 2-D
   Boundary sides = Boundary::wall;
   Boundary ends = Boundary::wall;         ///< bottom and top; periodic for the DEM only
   double gravity = 9.81;                  ///< m/s2, along `down`
   std::vector<double> gravity_direction;  ///< as the case gives it, in the order of given_size; empty: down
-  std::array<double, 3> down{0, -1, 0};   ///< follows: its unit vector on the axes x, y, z
+  std::array<double, 3> down{0, -1, 0};   ///< derived: its unit vector on the axes x, y, z
   double shear_rate = 0;                  ///< Lees-Edwards, dv_x/dy, 1/s; key of [dem]
   Outlet outlet = Outlet::screen;
   bool closed = false;  ///< walls all round: no inlet, no outlet
@@ -39,24 +39,24 @@ struct Column {
   [[nodiscard]] bool is_tapered() const { return !profile.empty(); }
   /// Area of its cross-section at an end, m2.
   [[nodiscard]] double cross_section(ColumnFace end = ColumnFace::bottom) const;
-  /// Volume below a height over cross_section(), m: the height that it would have in an even column. Above the top a
-  /// tapered column is as wide as there.
+  /// Volume below a height over cross_section(), m: the equivalent height in a uniform column. A tapered column
+  /// continues above the top with the width of its top.
   [[nodiscard]] double even_height(double height) const;
-  /// The inverse.
+  /// The inverse of even_height().
   [[nodiscard]] double filled_height(double even) const;
-  /// Of a tapered one; the smaller at a step.
+  /// Diameter of a tapered column at a height, m; the smaller one at a step.
   [[nodiscard]] double diameter_at(double height) const;
-  /// Least and greatest diameter of a tapered one, and that at an end of a round one, m.
+  /// Least and greatest diameter of a tapered column, and the diameter at an end of a round one, m.
   [[nodiscard]] double narrowest() const;
   [[nodiscard]] double widest() const;
   /// Cross-section at the bottom over the least.
   [[nodiscard]] double contraction() const;
   [[nodiscard]] double diameter_at(ColumnFace end) const;
-  /// Mean over the heights between two of a round column, m2.
+  /// Mean cross-section between two heights of a round column, m2.
   [[nodiscard]] double area_between(double low, double high) const;
 };
 
-/// A fluid whose properties are known by its name, another, or none.
+/// A fluid whose properties are tabulated, another one, or none.
 enum class Substance { none, water, air, other };
 
 struct Fluid {
@@ -73,9 +73,9 @@ struct Fluid {
   [[nodiscard]] bool compressible() const { return equation_of_state != Compressibility::incompressible; }
 };
 
-/// Sizes of a species by volume, as a case gives them; its classes stand in its place once the case is resolved.
+/// Sizes of a species by volume, as a case gives them. The resolved case contains the size classes instead.
 struct SizeDistribution {
-  std::optional<SizeLaw> kind;                    ///< none: one diameter
+  std::optional<SizeLaw> kind;                    ///< without: one diameter
   std::optional<double> median, mean, deviation;  ///< lognormal: m, m, standard deviation of ln D
   std::vector<std::pair<double, double>> sieves;  ///< (opening m, share retained on it), openings rising
   int classes = 3;
@@ -83,10 +83,10 @@ struct SizeDistribution {
 
 inline constexpr double usual_friction = 0.3, usual_restitution = 0.9;
 
-/// What walls are made of, and species that do not say otherwise; keys of [dem].
+/// Material of walls, and of species that give no other; keys of [dem].
 struct Material {
   double friction = usual_friction, restitution = usual_restitution;
-  double hamaker_constant = 0;            ///< A, J; 0: not known
+  double hamaker_constant = 0;            ///< A, J; 0: unknown
   double roughness = 1e-7;                ///< least thickness of a film between surfaces, m
   std::optional<double> surface_tension;  ///< of a liquid that wets particles in a gas, N/m
   double contact_angle = 0;               ///< of that liquid on particles and walls, degrees
@@ -104,13 +104,13 @@ struct Species {
   double friction = usual_friction, restitution = usual_restitution;  ///< follow from those given and the material
 };
 
-/// The bed at time zero, and the file of a checkpoint or a list of particles.
+/// The state of the bed at time zero, and the file for a checkpoint or a list of particles.
 struct Start {
   StartKind kind = StartKind::mixed;
   std::string file{};
 };
 
-/// As a case file writes it: "mixed", "list:FILE" ...
+/// The word in a case file: "mixed", "list:FILE" ...
 [[nodiscard]] std::string text_of(const Start& start);
 
 struct Bed {
@@ -121,19 +121,19 @@ struct Bed {
   double start_solids_fraction = 0;      ///< of the bed at the start; the mass is that of the settled bed
   std::vector<std::int64_t> particles;   ///< numbers of particles instead of static_height; else empty
   Start start;
-  /// Of each species in the start "layered" without [[layer]], from the bottom; empty: each its own.
+  /// Layer of each species for the start "layered" without [[layer]], from the bottom; empty: one layer per species.
   std::vector<std::int64_t> layer;
   std::uint64_t seed = 1;
   double perturbation = 1e-3;  ///< share by which cells of a mixed start differ at random
   bool held = false;           ///< particles do not move: a fixed bed; key of [dem]
 };
 
-/// A part of the bed at its start. It lies on those before it.
+/// A part of the bed at its start. It lies on the parts before it.
 struct Layer {
-  std::string species;                    ///< its only one; resolved to volume_share
+  std::string species;                    ///< of a layer with one species; resolved to volume_share
   std::vector<double> volume_share;       ///< x_j of its solids, sums to 1
   double height = 0;                      ///< settled, m
-  std::optional<double> solids_fraction;  ///< settled; default: that of the bed
+  std::optional<double> solids_fraction;  ///< settled; default: as in the bed
   std::vector<double> from, to;           ///< corners of its cross-section, m, as of a feed; empty: the column's
 };
 
@@ -145,26 +145,26 @@ struct Inlet {
   ColumnEnd at = ColumnEnd::bottom;  ///< top: the flow is given there too, instead of the pressure
 };
 
-/// A part of the bottom with a velocity of its own, or a part of a side through which fluid enters.
+/// A part of the bottom with its own velocity, or a part of a side through which fluid enters.
 struct Jet {
   std::vector<double> from, to;  ///< its corners, m: see axis_along; on the bottom x, or x and z
   std::vector<std::pair<double, double>> superficial_velocity;  ///< as of the inlet, over the jet's own area
   ColumnFace at = ColumnFace::bottom;                           ///< never the top
 };
 
-/// A wall inside the column that particles meet from either side: flat across the whole depth, or round about the
-/// upright axis of the column.
+/// A wall inside the column that particles meet from both sides: flat across the whole depth, or round with the upright
+/// axis of the column.
 struct InnerWall {
-  std::vector<double> from, to;  ///< its ends, m: x and y; of a round one diameter and height
+  std::vector<double> from, to;  ///< its ends, m: x and y; for a round wall diameter and height
   WallShape shape = WallShape::flat;
 
   [[nodiscard]] bool is_round() const { return shape != WallShape::flat; }
 };
 
-/// The walls of a round column where it is narrower than at its widest, as cones.
+/// The walls of a round column where it is narrower than its widest part, as cones.
 [[nodiscard]] std::vector<InnerWall> walls_of_taper(const Column& column);
 
-/// Solids of one species that are fed through an end or a side, everywhere or in a part of it.
+/// Feed of solids of one species through an end or a side, or through a part of it.
 struct Feed {
   std::string species;
   ColumnFace at = ColumnFace::bottom;
@@ -174,20 +174,20 @@ struct Feed {
   std::vector<double> from, to;  ///< as of a jet; empty: the whole end or side
 };
 
-/// A part of the bottom or a side through which fluid and solids leave as they are next to it.
+/// A part of the bottom or a side through which fluid and solids leave in the state next to it.
 struct Discharge {
   ColumnFace at = ColumnFace::right;
   std::vector<double> from, to;                                 ///< as of a feed
   std::vector<std::pair<double, double>> superficial_velocity;  ///< of the mixture, out of the column, m/s
 };
 
-/// How effects that a case gives as "auto" are chosen, and how what is left out is watched.
+/// How effects with the word "auto" are chosen, and how neglected effects are monitored.
 struct Chooser {
-  double tolerance = 0.02;  ///< what is left out sums to at most this share
+  double tolerance = 0.02;  ///< the neglected effects sum to at most this share
   Purpose purpose = Purpose::steady;
-  bool static_heap = false;               ///< a heap at rest is what the scene is about
-  std::optional<double> voidage;          ///< of the bulk; else by the balance of forces
-  std::vector<double> velocity_range;     ///< superficial, m/s: widens what the case itself says
+  bool static_heap = false;               ///< the scene studies a heap at rest
+  std::optional<double> voidage;          ///< of the bulk; else from the balance of forces
+  std::vector<double> velocity_range;     ///< superficial, m/s: widens the range in the case
   std::vector<double> temperature_range;  ///< K
   std::vector<std::string> zones;         ///< packed, bulk, wall, freeboard; empty: all
   MonitorMode monitor = MonitorMode::automatic;
@@ -202,10 +202,10 @@ struct RunPlan {
 struct OutputPlan {
   std::optional<double> every;             ///< s, between stored fields; else a twentieth of the run
   std::optional<double> history_every;     ///< s, between rows of history.csv; else a 400th of the run
-  std::optional<double> checkpoint_every;  ///< s, between checkpoints; else a tenth of the run that the case has
+  std::optional<double> checkpoint_every;  ///< s, between checkpoints; else a tenth of the run in the case
 };
 
-/// How the equations of the fluid are discretised, in both models; key of [tfm].
+/// Discretisation of the fluid equations, in both models; key of [tfm].
 struct FluidScheme {
   Momentum momentum = Momentum::automatic;
 };
@@ -236,17 +236,17 @@ struct Tfm {
   std::optional<double> pressure_tolerance;  ///< of the Poisson equation; else min(1e-4, 0.1 rtol)
 };
 
-/// E of particles whose case gives none, where they are slow, Pa.
+/// Default Young's modulus of slow particles, Pa.
 inline constexpr double least_modulus = 5e6;
 
-/// Solid steps per fluid step where nothing asks for fewer.
+/// Default limit on the solid steps per fluid step.
 inline constexpr int most_fluid_every = 16;
 
 struct Dem {
   double steps_per_contact = 20;
-  std::optional<double> youngs_modulus;  ///< Pa; else chosen for the speeds to expect, at least least_modulus
+  std::optional<double> youngs_modulus;  ///< Pa; else from the expected speeds, at least least_modulus
   double poisson_ratio = 0.25;
-  std::optional<int> fluid_every;  ///< solid steps per fluid step; else chosen for the fluid's velocity, at most 16
+  std::optional<int> fluid_every;  ///< solid steps per fluid step; else from the fluid's velocity, at most 16
   Kernel kernel = Kernel::automatic;
   std::optional<double> kernel_width;  ///< of diffusion, full width at half height, m
   OwnShare own_share = OwnShare::kept;
@@ -266,16 +266,16 @@ struct Dem {
   bool ledger = true;                      ///< account of the energy
   double cohesion_energy = 0;              ///< W of DMT and JKR, J/m2
   double cohesion_gap = 1.65e-10;          ///< z_0, least gap of the van der Waals force, m
-  std::optional<double> asperity_radius;   ///< R* of the van der Waals force, m; else that of the spheres
+  std::optional<double> asperity_radius;   ///< R* of the van der Waals force, m; else the spheres' own
 };
 
-/// Between which superficial velocities others have found the two species of the bed to change places, m/s; one value
-/// or two, empty: not known.
+/// The range of superficial velocity in which the two species of the bed change places according to the literature,
+/// m/s; one value or two, empty: unknown.
 struct Inversion {
   std::vector<double> measured, simulated;
 };
 
-/// Boxes of particles that are run for a table of the solids stress; what is empty has a default of the plan.
+/// Boxes of particles that tabulate the solids stress. Empty values have defaults from the plan.
 struct Calibrate {
   BoxRegime regime = BoxRegime::automatic;
   std::vector<double> solids_fraction, restitution, friction;  ///< axes
@@ -286,7 +286,7 @@ struct Calibrate {
   double softness = 0.03;                                      ///< t_c over the time between collisions
 };
 
-/// Boxes of spheres whose drag polybed resolve finds; the species and their shares are those of the bed.
+/// Boxes of spheres whose drag polybed resolve computes. The species and their shares are those in the bed.
 struct Resolve {
   SphereMotion motion = SphereMotion::held;
   std::vector<double> voidage, reynolds{0};  ///< of the Sauter diameter and the superficial velocity
@@ -303,14 +303,14 @@ struct ContactPair {
   std::optional<double> youngs_modulus, poisson_ratio, friction, restitution;
 };
 
-/// What became of a species with a distribution: a record, not read again.
+/// The classes of a species with a distribution: a record, not read again.
 struct SizeClasses {
   std::string species;  ///< as the case names it; the classes are called name.1, name.2, ... from fine to coarse
   SizeDistribution given;
   std::vector<double> diameter, share;  ///< m; of the volume of this distribution
 };
 
-/// Made, copied and destroyed in one place: so many members are not compiled anew in every source that does it.
+/// Made, copied and destroyed in one source, so that no other source compiles code for its many members.
 struct Scene {
   Scene();
   Scene(const Scene& other);
@@ -343,29 +343,29 @@ struct Scene {
   Calibrate calibrate;
   Resolve resolve;
   std::vector<SizeClasses> size_classes;
-  /// What the file of the drag law said when the case was read, JSON: a record, not read again; empty without one.
+  /// The content of the drag law's file when the case was read, JSON: a record, not read again; empty without a file.
   std::string drag_record;
   std::vector<std::string> overrides;  ///< "key=value" of the command line, as given
   Places places;                       ///< of the keys and tables of the case: a record, not read again
 };
 
-/// The word in place of a law that leaves it to the chooser.
+/// The word in place of a law with which the chooser decides.
 inline constexpr const char* automatic = "auto";
 
-/// The law that a scene gives a role of [effects]; "none" if it names none.
+/// The law of a role in [effects]; "none" if the scene names none.
 [[nodiscard]] inline std::string law_of(const Scene& scene, const std::string& role) {
   const auto found = scene.effects.find(role);
   return found == scene.effects.end() ? "none" : found->second;
 }
 
-/// Of a word that [effects] may give a role: that it takes the role out.
+/// Whether a word in [effects] turns the role off.
 [[nodiscard]] bool is_off(const std::string& law);
-/// That it names a law: neither takes the role out nor leaves it to the chooser.
+/// Whether it names a law, so neither turns the role off nor leaves it to the chooser.
 [[nodiscard]] bool is_law(const std::string& law);
 
-/// Whether a scene gives a role a law, or leaves it to the chooser.
+/// Whether a role has a law or is left to the chooser.
 [[nodiscard]] inline bool acts(const Scene& scene, const std::string& role) { return !is_off(law_of(scene, role)); }
-/// Whether it names the law itself.
+/// Whether the scene names the law of the role itself.
 [[nodiscard]] inline bool names_law(const Scene& scene, const std::string& role) { return is_law(law_of(scene, role)); }
 
 /// Whether every species is of spheres.
@@ -375,7 +375,7 @@ inline constexpr const char* automatic = "auto";
 void set_friction(Scene& scene, double friction);
 void set_restitution(Scene& scene, double restitution);
 
-/// Fills in what species do not say of their friction and restitution.
+/// Fills in friction and restitution of species that do not give them.
 void resolve_materials(Scene& scene);
 
 }  // namespace polybed::core

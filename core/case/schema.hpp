@@ -1,4 +1,4 @@
-// How a table of keys is declared: each key a member of a plain struct, its default the member's initialiser.
+// Declares tables of keys: each key is a member of a plain struct, and its default is the member's initialiser.
 #pragma once
 
 #include <initializer_list>
@@ -10,7 +10,7 @@
 
 namespace polybed::core::schema {
 
-/// How a member of a struct is a value: `kind`, `get`, `set`.
+/// How a member of a struct converts to a value: `kind`, `get`, `set`.
 template <class T>
 struct Access;
 
@@ -76,7 +76,7 @@ struct Access<std::optional<T>> : Access<T> {
   static void set(std::optional<T>& place, const Value& value) { Access<T>::set(place.emplace(), value); }
 };
 
-// What can be said of a key, besides its dimension and Range.
+// Properties of a key besides its dimension and Range.
 struct Help {
   std::string_view text;
 };
@@ -90,7 +90,7 @@ enum class Mark {
   required,
   given,     ///< required unless another key is given: its initialiser is no default
   replaced,  ///< not in the resolved case
-  by_size,   ///< pairs of a diameter and a value, not of a time and a value
+  by_size,   ///< pairs of a diameter and a value, instead of a time and a value
   by_height  ///< pairs of a height and a value
 };
 
@@ -111,7 +111,7 @@ struct KeyOf {
   bool no_default = false;
   std::function<Value(const S&)> get;
   std::function<void(S&, const Value&)> set;
-  std::function<Value(const Scene&)> get_elsewhere{};  ///< instead, of a key whose value is kept in another struct
+  std::function<Value(const Scene&)> get_elsewhere{};  ///< for a key whose value is stored in another struct
   std::function<void(Scene&, const Value&)> set_elsewhere{};
 
   void say(const Help& fact) { key.help = fact.text; }
@@ -138,14 +138,14 @@ KeyOf<S> key(T S::*member, std::string_view name, const Facts&... facts) {
   return made;
 }
 
-/// A key of a part of a struct, as a key of the whole.
+/// A key in a part of a struct, as a key of the whole.
 template <class S, class Part>
 KeyOf<S> within(Part S::*part, const KeyOf<Part>& inner) {
   return {inner.key, inner.no_default, [part, inner](const S& from) { return inner.get(from.*part); },
           [part, inner](S& into, const Value& value) { inner.set(into.*part, value); }};
 }
 
-/// A key of the table of S whose value both models read: it is kept in another part of the scene.
+/// A key in the table of S whose value both models read: it is stored in another part of the scene.
 template <class S, class Part>
 KeyOf<S> shared(Part Scene::*part, const KeyOf<Part>& inner) {
   KeyOf<S> made{inner.key, inner.no_default, {}, {}};
@@ -179,7 +179,7 @@ Table table_of(std::string_view name, bool array, const At& at, std::initializer
   return made;
 }
 
-/// A table [name] that stands once in a scene.
+/// A table [name] that occurs once in a scene.
 template <class S>
 Table table(std::string_view name, S Scene::*place, std::initializer_list<KeyOf<S>> keys) {
   return table_of<S>(
@@ -196,7 +196,7 @@ Table table(std::string_view name, std::vector<S> Scene::*place, std::initialize
   return made;
 }
 
-// The tables, by what they are about.
+// The tables, by subject.
 [[nodiscard]] std::vector<Table> bed_tables();    ///< title, column, fluid, species, bed, layer, inlet
 [[nodiscard]] std::vector<Table> run_tables();    ///< chooser, run, output
 [[nodiscard]] std::vector<Table> model_tables();  ///< tfm, dem, calibrate, resolve

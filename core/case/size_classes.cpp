@@ -8,7 +8,7 @@ namespace polybed::core {
 
 namespace {
 
-/// The species that stand for one of the case, with their shares of its volume.
+/// The species that replace one in the case, with their shares of its volume.
 struct Expanded {
   std::vector<Species> species;
   std::vector<double> share;
@@ -36,7 +36,7 @@ auto record_of(const std::string& name, const std::vector<SizeClasses>& records)
   return std::find_if(records.begin(), records.end(), [&](const auto& r) { return r.species == name; });
 }
 
-/// The names that a name of the case stands for.
+/// The names that replace a name in the case.
 std::vector<std::string> names_of(const std::string& name, const std::vector<SizeClasses>& records) {
   const auto record = record_of(name, records);
   if (record == records.end()) return {name};
@@ -45,12 +45,12 @@ std::vector<std::string> names_of(const std::string& name, const std::vector<Siz
   return names;
 }
 
-/// A pair that names a distribution is a pair of each of its classes.
+/// Replaces a pair that names a distribution by a pair for each of its classes.
 std::vector<ContactPair> expanded_pairs(const std::vector<ContactPair>& pairs,
                                         const std::vector<SizeClasses>& records) {
   std::vector<ContactPair> result;
   for (const ContactPair& pair : pairs) {
-    if (pair.between.size() != 2) return pairs;  // a rule tells of it
+    if (pair.between.size() != 2) return pairs;  // a rule reports it
     for (const std::string& a : names_of(pair.between[0], records))
       for (const std::string& b : names_of(pair.between[1], records)) {
         if (pair.between[0] == pair.between[1] && b < a) continue;
@@ -61,7 +61,7 @@ std::vector<ContactPair> expanded_pairs(const std::vector<ContactPair>& pairs,
   return result;
 }
 
-/// A feed of a distribution is a feed of each of its classes, by their shares.
+/// Replaces a feed of a distribution by a feed of each of its classes, by their shares.
 std::vector<Feed> expanded_feeds(const std::vector<Feed>& feeds, const std::vector<SizeClasses>& records) {
   std::vector<Feed> result;
   for (const Feed& feed : feeds) {
@@ -79,7 +79,7 @@ std::vector<Feed> expanded_feeds(const std::vector<Feed>& feeds, const std::vect
   return result;
 }
 
-/// Share of a species of the case in a layer.
+/// Share of one species of the case in a layer.
 double share_in(const Layer& layer, const std::vector<Species>& species, std::size_t n) {
   if (layer.volume_share.empty()) return layer.species == species[n].name ? 1 : 0;
   return layer.volume_share[n];
@@ -109,7 +109,7 @@ void expand_layers(std::vector<Layer>& layers, const std::vector<Species>& given
   }
 }
 
-/// Entries before the n-th of `size` parts; all classes of a distribution, one after the other, come from one entry.
+/// Number of entries before part n of `size`. All classes of a distribution, one after the other, come from one entry.
 template <class Name>
 std::size_t entries_before(const Scene& scene, std::size_t size, std::size_t n, Name&& name_of_part) {
   std::size_t entry = 0;
@@ -147,7 +147,7 @@ void expand_size_classes(Scene& scene, const ClassRule& rule) {
   Bed& bed = scene.bed;
   const bool shares_fit = bed.volume_share.size() == scene.species.size();
   const bool by_layers = !scene.layers.empty() && bed.volume_share.empty();
-  if (!shares_fit && !by_layers && bed.start.kind != StartKind::list) return;  // a rule tells of it
+  if (!shares_fit && !by_layers && bed.start.kind != StartKind::list) return;  // a rule reports it
   if (!layers_fit(scene.layers, scene.species.size())) return;
   std::vector<Species> species;
   std::vector<double> shares;

@@ -1,5 +1,5 @@
-// Species with a distribution of sizes give way to their classes when a case is resolved: beyond this step a scene has
-// species of one diameter each, and nothing else need know.
+// Replaces species with a size distribution by their classes when a case is resolved. Afterwards every species of a
+// scene has one diameter.
 #pragma once
 
 #include <functional>
@@ -11,18 +11,17 @@
 
 namespace polybed::core {
 
-/// The classes of a distribution, (diameter m, share of its volume), from fine to coarse. The closures know the rule;
-/// the case file is given it, as it is given the roles.
+/// The classes of a distribution, (diameter m, share of its volume), from fine to coarse. The closures define the rule;
+/// it is passed to the reader, as the roles are.
 using ClassRule = std::function<std::vector<std::pair<double, double>>(const SizeDistribution&)>;
 
-/// Puts `name.1`, `name.2`, ... in the place of each species with a distribution: with its properties, its share of
-/// bed.volume_share and of [[layer]] divided among them, and in the contact pairs, the feeds and the layers that name
-/// it; in a layered bed they are one layer. Fills scene.size_classes. Does nothing to a scene that has no share for
-/// each species.
+/// Replaces each species with a distribution by `name.1`, `name.2`, ... with the same properties. Divides its share of
+/// bed.volume_share and of [[layer]] among them, and replaces it in contact pairs, feeds and layers; in a layered bed
+/// they form one layer. Fills scene.size_classes. Leaves a scene without a share for each species unchanged.
 void expand_size_classes(Scene& scene, const ClassRule& rule);
 
-/// The entry in the case that the n-th species, layer, jet, feed, discharge or contact pair of a scene comes from; none
-/// of a pair where size classes stand for species.
+/// The entry in the case that produced the n-th species, layer, jet, feed, discharge or contact pair of a scene;
+/// nothing for a pair whose species were replaced by size classes.
 [[nodiscard]] std::optional<std::size_t> entry_of(const Scene& scene, const std::vector<Species>& species,
                                                   std::size_t n);
 [[nodiscard]] std::optional<std::size_t> entry_of(const Scene& scene, const std::vector<Jet>& jets, std::size_t n);

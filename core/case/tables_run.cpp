@@ -1,4 +1,4 @@
-// The keys of the choice of effects, the run and its output.
+// The keys for choosing effects, for the run and for its output.
 #include "core/case/schema.hpp"
 
 namespace polybed::core::schema {

@@ -63,7 +63,7 @@ const Unit* find_unit(std::string_view name) {
   return nullptr;
 }
 
-/// What the units of a quantity come to.
+/// The product of several units.
 struct Units {
   int decade = 0;
   double factor = 1;
@@ -71,7 +71,7 @@ struct Units {
   bool any = false;
 };
 
-/// Multiplies one "m3" or "s-1" into the units; false if it is no unit.
+/// Multiplies one "m3" or "s-1" into the units; false if it is not a unit.
 bool apply_unit(std::string_view token, int sign, Units& all) {
   std::size_t letters = 0;
   while (letters < token.size() && (std::isalpha(static_cast<unsigned char>(token[letters])) || token[letters] == '%'))
@@ -111,7 +111,7 @@ std::optional<double> scaled_number(std::string_view number, int decade) {
   return value;
 }
 
-/// With "u" for the micro sign and the Greek letter, "deg" for the degree sign.
+/// Replaces the micro sign and the Greek letter by "u", the degree sign by "deg".
 std::string in_ascii(std::string_view text) {
   constexpr std::array<std::pair<std::string_view, std::string_view>, 3> signs{
       {{"\u00b5", "u"}, {"\u03bc", "u"}, {"\u00b0", "deg"}}};

@@ -28,12 +28,12 @@ struct Quantity {
   bool has_unit = false;
 };
 
-/// Reads "number unit", e.g. "0.807 mm", "15 degC", "1395 kg/m3", "1.14e-3 Pa s", "12"; units are joined by
-/// spaces, '*' or '/', a digit after a unit is its power. degC and degF alone are shifted to K; "µ" is read as "u", "°"
-/// as "deg". Empty if the text is no quantity.
+/// Reads "number unit", e.g. "0.807 mm", "15 degC", "1395 kg/m3", "1.14e-3 Pa s", "12". Units are joined by spaces, '*'
+/// or '/'; a digit after a unit is its power. Only degC and degF alone are shifted to K. "µ" is read as "u", "°" as
+/// "deg". Empty if the text is not a quantity.
 [[nodiscard]] std::optional<Quantity> parse_quantity(std::string_view text);
 
-/// All units that a quantity may have.
+/// All units that a quantity can have.
 [[nodiscard]] std::vector<std::string> unit_names();
 
 /// The SI unit of a dimension as text, e.g. "kg/m3"; "1" for none.

@@ -12,7 +12,7 @@ namespace polybed::core {
 
 namespace {
 
-/// As in a case file; numbers by their fewest digits: 0.95, not 0.94999999999999996.
+/// The value as in a case file, numbers with their fewest digits: 0.95, not 0.94999999999999996.
 std::string as_typed(const toml::node& node) {
   if (const auto* number = node.as_floating_point()) {
     const std::string text = fmt::format("{}", number->get());
@@ -39,7 +39,7 @@ std::string shown(const toml::node& node) {
 
 namespace {
 
-/// A list of what `read` reads of each entry.
+/// A list; `read` reads each entry.
 template <class Read>
 auto list(CaseValues& values, const Key& key, const toml::node& node, const Read& read)
     -> std::optional<std::vector<typename decltype(read(node))::value_type>> {
@@ -191,7 +191,7 @@ std::optional<std::string> CaseValues::text(const Key& key, const toml::node& no
 
 namespace {
 
-/// What the first number of a pair is.
+/// The meaning of the first number in a pair.
 struct First {
   const char *pair, *order;
   Dimension dimension;

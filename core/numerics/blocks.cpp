@@ -24,7 +24,7 @@ double surface(const Grid& column, const std::array<int, 3>& blocks) {
   return area;
 }
 
-/// First cell of block n when cells are dealt out evenly, the first blocks taking what is left over.
+/// First cell of block n when cells are distributed evenly; the first blocks get one more if there is a remainder.
 int first_cell(int cells, int blocks, int n) { return n * (cells / blocks) + std::min(n, cells % blocks); }
 
 }  // namespace

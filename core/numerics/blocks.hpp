@@ -1,4 +1,4 @@
-// A column cut into blocks of cells, one for each rank: who owns what.
+// Divides a column into blocks of cells, one for each rank.
 #pragma once
 
 #include <array>
@@ -9,17 +9,17 @@
 
 namespace polybed::core {
 
-/// Cells that a block has at least along an axis that is cut: two layers of ghosts go to either side.
+/// Minimum cells of a block along a divided axis: two layers of ghosts go to either side.
 constexpr int least_block_cells = 4;
 
-/// Blocks along each axis with the least surface between them. Throws CaseError if the column is too small for so many.
+/// Blocks along each axis with the least surface between them. Throws CaseError if the column is too small for `count`.
 [[nodiscard]] std::array<int, 3> choose_blocks(const Grid& column, int count);
 
 /// This rank's block of a column, or the column itself for null. The second form returns the block of any rank.
 [[nodiscard]] Grid block_of(const Grid& column, const std::shared_ptr<const Ranks>& ranks);
 [[nodiscard]] Grid block_of(const Grid& column, const std::shared_ptr<const Ranks>& ranks, int rank);
 
-/// The grid of a column that a case describes: this rank's block of it, or the column itself for null.
+/// The grid of the column in a case: this rank's block of it, or the whole column for null.
 [[nodiscard]] Grid grid_of(const Column& column, const std::shared_ptr<const Ranks>& ranks);
 
 /// The grid of the whole column, on one rank.
@@ -28,8 +28,8 @@ constexpr int least_block_cells = 4;
 /// The rank that owns the block next to this one, across joined sides too; -1 where the column ends.
 [[nodiscard]] int neighbour_rank(const Grid& block, int axis, int side);
 
-/// Cells numbered from 0, rank by rank and row by row: the numbers of the owned cells, and of those next to them across
-/// block and joined sides; -1 beyond the column's ends. Collective.
+/// Cells numbered from 0, rank by rank and row by row: numbers of the owned cells and of the cells next to them across
+/// block borders and joined sides; -1 beyond the column's ends. Collective.
 [[nodiscard]] Field cell_numbers(const Grid& block);
 
 }  // namespace polybed::core

@@ -12,7 +12,7 @@ namespace polybed::core {
 
 namespace {
 
-/// Area of a disc about the origin where X <= x and Z <= z.
+/// Area of a disc about the origin with X <= x and Z <= z.
 class Disc {
  public:
   explicit Disc(double radius) : radius_(radius) {}
@@ -22,7 +22,7 @@ class Disc {
     z = std::clamp(z, -radius_, radius_);
     return z < 0 ? half(x) - capped(x, -z) : half(x) + capped(x, z);
   }
-  /// Length of the chord at a distance from the centre that lies between two places on it.
+  /// Length of the chord at a distance from the centre, between two places on it.
   [[nodiscard]] double chord(double distance, double from, double to) const {
     const double reach = radius_ * radius_ - distance * distance;
     if (!(reach > 0)) return 0;
@@ -36,7 +36,7 @@ class Disc {
     const double inside = std::max(radius_ * radius_ - x * x, 0.0);
     return 0.5 * (x * std::sqrt(inside) + radius_ * radius_ * (std::asin(x / radius_) + 0.5 * std::numbers::pi));
   }
-  /// The same of min(h, sqrt(R^2 - t^2)).
+  /// The integral of min(h, sqrt(R^2 - t^2)).
   [[nodiscard]] double capped(double x, double h) const {
     const double w = std::sqrt(std::max(radius_ * radius_ - h * h, 0.0));
     if (x <= -w) return half(x);
@@ -47,28 +47,28 @@ class Disc {
   double radius_;
 };
 
-/// A cell with less of its volume open becomes part of its neighbour: no small cell limits a step, and the centre of
-/// what is left lies inside the wall.
+/// A cell with a smaller open share is merged with its neighbour: no small cell then limits a step, and the centre of
+/// the open part lies inside the wall.
 constexpr double least_volume = 0.5;
 
-/// The same of rings, which a sloping wall cuts anew in every layer: what a face that it closes has carried turns
-/// inwards within one layer and loses its momentum, with 0.5 three times as much.
+/// The limit for rings, which a sloping wall cuts anew in every layer: flow through a face that the wall closes turns
+/// inwards within one layer and loses its momentum, three times as much with 0.5.
 constexpr double least_volume_of_rings = 0.15;
 
-/// Where what a cell was went.
+/// The neighbour that a cell was merged into.
 struct Taken {
   std::size_t from;
   std::vector<std::size_t> to;
 };
 
-/// A layer of the column while it is made.
+/// A layer of the column under construction.
 struct OpenLayer {
   CrossSection open;
-  std::vector<double> around;  ///< of rings: by what an even pressure pushes a cell outwards, in faces along x
+  std::vector<double> around;  ///< rings: outward push of an even pressure on a cell, in faces along x
   std::vector<Taken> taken;    ///< from the outside in
 };
 
-/// The grid of a column, about its axis.
+/// Builds the grid of a column about its axis.
 class Sections {
  public:
   Sections(const Grid& column, bool rings)
@@ -80,7 +80,7 @@ class Sections {
         hy_(column.spacing[1]),
         radius_(rings ? nx_ * hx_ : 0.5 * nx_ * hx_) {}
 
-  /// Adds a share of what lies within a radius of the axis.
+  /// Adds a share of the area within a radius of the axis.
   void add(double radius, double share, OpenLayer& layer) const {
     if (rings_)
       add_rings(in_cells(radius), share, layer);
@@ -97,13 +97,13 @@ class Sections {
     for (int i = 0; rings_ && i <= nx_; ++i) layer.open.radius.push_back(i * hx_);
     return layer;
   }
-  /// A small cell gives its volume to the neighbour across its largest face, or in equal parts across two alike.
+  /// Merges a small cell with the neighbour across its largest face, or in equal parts with two alike.
   void absorb_small_cells(OpenLayer& layer) const;
-  /// Of a layer whose low faces have the open shares `below` and the high ones `above`.
+  /// Sets the wall of a layer with the open shares `below` at its low faces and `above` at its high ones.
   void set_wall(const std::vector<double>& below, const std::vector<double>& above, const Taper& taper, double height,
                 OpenLayer& layer) const;
   [[nodiscard]] double radius() const { return radius_; }
-  /// Radii at which what is open of a cell or face begins and ends.
+  /// Radii at which the open part of a cell or face begins and ends.
   [[nodiscard]] std::vector<double> steps() const {
     std::vector<double> radii;
     for (int i = 0; rings_ && i <= nx_; ++i) radii.push_back(i * hx_);
@@ -111,7 +111,7 @@ class Sections {
   }
 
  private:
-  /// A radius on a face up to round-off is that face's.
+  /// A radius that equals a face's up to round-off becomes that face's.
   [[nodiscard]] double in_cells(double radius) const {
     const double cells = radius / hx_, face = std::round(cells);
     return std::abs(cells - face) < 1e-14 * nx_ ? face : cells;
@@ -122,7 +122,7 @@ class Sections {
     const double along_x = x(i) + 0.5 * hx_;
     return rings_ ? along_x : std::hypot(along_x, z(k) + 0.5 * hz_);
   }
-  /// Of a whole cell.
+  /// Volume of a whole cell.
   [[nodiscard]] double whole(int i) const { return rings_ ? (2.0 * i + 1) / nx_ : 1.0; }
 
   void add_disc(const Disc& disc, double share, OpenLayer& layer) const;
@@ -190,7 +190,7 @@ void Sections::absorb(int i, int k, OpenLayer& layer) const {
   layer.taken.push_back(std::move(taken));
 }
 
-/// From the outside in, so that what a small cell takes goes on with its own.
+/// Works from the outside in, so that a cell merged into a small cell moves on with it.
 void Sections::absorb_small_cells(OpenLayer& layer) const {
   std::vector<std::array<int, 3>> cells;  // distance from the centre in half cells, squared; i; k
   const double least = rings_ ? least_volume_of_rings : least_volume;
@@ -223,7 +223,7 @@ double distance_from(const Taper& taper, double radius, double height) {
   return least;
 }
 
-// The areas of a cell's faces, its wall's included, add up to nothing, but for what the circles of a ring add.
+// The areas of a cell's faces, its wall included, sum to zero, except for the curvature of a ring.
 void Sections::set_wall(const std::vector<double>& below, const std::vector<double>& above, const Taper& taper,
                         double height, OpenLayer& layer) const {
   CrossSection& section = layer.open;
@@ -239,12 +239,12 @@ void Sections::set_wall(const std::vector<double>& below, const std::vector<doub
       const double area = taper.empty() ? across : std::hypot(across, (above[at] - below[at]) / hy_);
       if (!(theta > 0) || area * least < 1e-9) continue;
       double to_wall = taper.empty() ? radius_ - from_axis(i, k) : distance_from(taper, from_axis(i, k), height);
-      if (rings_) to_wall = std::max(to_wall, 0.5 * theta / area);         // half the thickness of what is open
-      section.wall[at] = area / (std::max(to_wall, 0.1 * least) * theta);  // or it would limit steps
+      if (rings_) to_wall = std::max(to_wall, 0.5 * theta / area);         // half the thickness of the open part
+      section.wall[at] = area / (std::max(to_wall, 0.1 * least) * theta);  // or it would limit the step
     }
 }
 
-/// Heights from `low` to `high` between which the wall is straight and passes no step of the grid.
+/// Heights from `low` to `high` between which the wall is straight and crosses no step of the grid.
 std::vector<double> straight_parts(const Taper& taper, const std::vector<double>& steps, double low, double high) {
   std::vector<double> heights{low, high};
   for (std::size_t n = 1; n < taper.size(); ++n) {
@@ -265,7 +265,7 @@ constexpr std::array<double, 5> gauss_at{0.046910077030668004, 0.230765344947158
 constexpr std::array<double, 5> gauss_weight{0.11846344252809454, 0.23931433524968324, 0.28444444444444444,
                                              0.23931433524968324, 0.11846344252809454};
 
-/// The mean between two heights.
+/// The mean layer between two heights.
 OpenLayer layer_between(const Sections& sections, const Taper& taper, double low, double high) {
   OpenLayer layer = sections.empty();
   const std::vector<double> heights = straight_parts(taper, sections.steps(), low, high);
@@ -279,8 +279,8 @@ OpenLayer layer_between(const Sections& sections, const Taper& taper, double low
   return layer;
 }
 
-/// Open shares of the faces between two layers, null beyond the ends. What cells that are closed have of them goes with
-/// their volume, so that all of the cross-section stays open.
+/// Open shares of the faces between two layers, null beyond the ends. The shares of closed cells move with their
+/// volume, so that the whole cross-section stays open.
 std::vector<double> level_between(const Sections& sections, double radius, const OpenLayer* below,
                                   const OpenLayer* above) {
   OpenLayer level = sections.empty();
@@ -323,7 +323,7 @@ double radius_at(const Taper& taper, double height, int side) {
 
 std::vector<CrossSection> cross_sections(const Grid& column, bool rings, const Taper& taper) {
   const Sections sections(column, rings);
-  const auto level_of = [&](std::size_t y) {  // that of a step where they are the same up to round-off
+  const auto level_of = [&](std::size_t y) {  // heights that agree up to round-off are one step
     const double h = column.spacing[1], height = double(y) * h;
     const auto row = std::find_if(taper.begin(), taper.end(),
                                   [&](const auto& one) { return std::abs(one.first - height) < 1e-11 * h; });

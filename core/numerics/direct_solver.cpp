@@ -22,7 +22,7 @@ Index packed_neighbour(const Grid& grid, std::array<int, 3> cell, int axis, int 
   return cell[0] + grid.cells[0] * (cell[1] + Index(grid.cells[1]) * cell[2]);
 }
 
-/// The ghost cells beside the owned ones: 0 beyond the column's ends, else what other cells own.
+/// Sets the ghost cells next to the owned ones: 0 beyond the column's ends, else the values of their owners.
 void set_ghosts(const Grid& grid, const Halo& halo, Field& p) {
   for (int d = 0; d < grid.dimensions; ++d) {
     const auto a = std::size_t(d);
@@ -91,7 +91,7 @@ bool leaves_constant_open(const Grid& grid, const std::array<std::span<const dou
 
 namespace {
 
-/// In this block; nothing if another has it.
+/// The place in this block; nothing if another block contains it.
 std::optional<std::array<int, 3>> place_of_pin(const Grid& grid) {
   std::array<int, 3> place{};
   if (grid.metric && !grid.metric->around_axis)

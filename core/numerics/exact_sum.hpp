@@ -1,6 +1,6 @@
-// Sums that have the same bits in whatever order their terms come and on however many ranks they lie: each term is cut
-// into two parts, each a whole number of a unit so large that adding them rounds nothing (Rump, Ogita and Oishi, SIAM
-// J. Sci. Comput. 31 (2008) 189, algorithm 3.2).
+// Sums with the same bits for any order of the terms and any number of ranks. Each term is split into two parts, each a
+// whole multiple of a unit so large that additions are exact (Rump, Ogita and Oishi, SIAM J. Sci. Comput. 31 (2008)
+// 189, algorithm 3.2).
 #pragma once
 
 #include <algorithm>
@@ -33,8 +33,8 @@ using Lanes = double __attribute__((vector_size(lanes * sizeof(double))));
   return std::bit_cast<Lanes>(std::bit_cast<Bits>(values) & std::numeric_limits<std::int64_t>::max());
 }
 
-// What is summed: terms from the entries of one, two or three arrays. Where digits of the first part are enough, as for
-// the directions of an iteration, the second is left out.
+// The terms, computed from the entries of one, two or three arrays. The second part is left out where the first has
+// enough digits, as for the search directions of an iteration.
 struct Itself {
   static constexpr bool both_parts = true;
   [[gnu::always_inline]] static Lanes of(const Lanes& x) { return x; }
@@ -47,7 +47,7 @@ struct WeightedSquare {
   static constexpr bool both_parts = true;
   [[gnu::always_inline]] static Lanes of(const Lanes& x, const Lanes& w) { return (x * w) * (x * w); }
 };
-/// Of the entries with a mask of 1, where the others have 0.
+/// The square where the mask is 1, else 0.
 struct MaskedSquare {
   static constexpr bool both_parts = true;
   [[gnu::always_inline]] static Lanes of(const Lanes& x, const Lanes& w, const Lanes& mask) {
@@ -55,7 +55,7 @@ struct MaskedSquare {
   }
 };
 
-/// Calls act with eight terms at a time, the last ones filled up with zeros.
+/// Calls act with eight terms at a time; zeros fill up the last call.
 template <class Term, class Act, class... Array>
 [[gnu::always_inline]] inline void for_each_eight(std::size_t n, Act&& act, const Array*... array) {
   std::size_t i = 0;
@@ -108,10 +108,10 @@ std::array<double, 2> parts_of(std::size_t n, double first, double second, const
 
 }  // namespace exact
 
-/// Sum of terms over the processes of a communicator. Term is one of the structs above and computes a term from the
-/// entries of the arrays. For a million terms the first part has 31 binary digits below the greatest term, both parts
-/// together 63. Returns NaN if a term is NaN or infinite. Collective.
-/// \param of_all  an upper bound of the number of terms on all processes, at most 2^24, the same on all  \param n  here
+/// Sum over the processes of a communicator. Term, one of the structs above, computes a term from entries of the
+/// arrays. For a million terms the first part has 31 binary digits below the greatest term, both parts together 63.
+/// Returns NaN if a term is NaN or infinite. Collective.
+/// \param of_all  upper bound on the terms of all processes, at most 2^24, the same on all  \param n  terms here
 template <class Term, class... Array>
 [[nodiscard]] double exact_sum(MPI_Comm all, std::size_t of_all, std::size_t n, const Array*... array) {
   const auto reduce = [all](std::span<double> values, MPI_Op operation) {

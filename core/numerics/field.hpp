@@ -1,4 +1,4 @@
-// Fields over the padded box of a grid, and the boxes of owned cells and faces that loops run over.
+// Fields over the padded box of a grid, and the boxes of owned cells and faces for loops.
 #pragma once
 
 #include <array>
@@ -8,10 +8,10 @@
 
 namespace polybed::core {
 
-/// One number per entry of the padded box: of a cell, or of the low face of that cell along one axis.
+/// One number per entry of the padded box: for a cell, or for its low face along one axis.
 using Field = std::vector<double>;
 
-/// One number per face, axis by axis; the axes that a 2-D grid lacks are empty.
+/// One number per face, axis by axis. Axes that a 2-D grid lacks are empty.
 using FaceField = std::array<Field, 3>;
 
 [[nodiscard]] inline Field make_field(const Grid& grid, double value = 0) { return Field(grid.padded_size(), value); }
@@ -29,7 +29,7 @@ struct Box {
 
 [[nodiscard]] inline Box owned_cells(const Grid& grid) { return {{0, 0, 0}, grid.cells}; }
 
-/// All faces of an axis that the block owns, those on the column's boundary included.
+/// All faces of an axis that the block owns, including those on the column's boundary.
 [[nodiscard]] inline Box owned_faces(const Grid& grid, int axis) {
   Box box = owned_cells(grid);
   box.hi[std::size_t(axis)] = grid.faces(axis);

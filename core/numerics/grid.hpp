@@ -1,5 +1,5 @@
-// The staggered grid of a column, or of the block of it that this rank owns, and how its fields lie in memory. Its
-// cells are alike; what of them a round column leaves open stands in its metric.
+// The staggered grid of a column or of this rank's block, and the memory layout of its fields. Its cells are alike; its
+// metric contains the open shares of cells in a round column.
 //
 // Axes: 0 = x (width), 1 = y (height, upward), 2 = z (depth; one cell thick in 2-D). Every field, on cells or
 // on faces of one axis, is one array over the same padded box, so that a cell and its low faces share an
@@ -25,16 +25,16 @@ struct Grid {
   int dimensions = 2;                                 ///< 2 or 3: the number of active axes
   std::array<int, 3> cells{1, 1, 1};                  ///< owned cells along each axis
   std::array<double, 3> spacing{1, 1, 1};             ///< cell size, m (2-D: spacing[2] is the depth)
-  std::array<bool, 3> periodic{false, false, false};  ///< sides joined
+  std::array<bool, 3> periodic{false, false, false};  ///< joined sides
 
   std::array<int, 3> before{0, 0, 0};    ///< cells of the column on other ranks, towards lower indices
   std::array<int, 3> after{0, 0, 0};     ///< and towards higher ones
   std::array<int, 3> blocks{1, 1, 1};    ///< of the column, along each axis
-  std::array<int, 3> block{0, 0, 0};     ///< which of them this is
-  std::shared_ptr<const Ranks> ranks;    ///< who owns them; null: the whole column is here
-  std::shared_ptr<const Metric> metric;  ///< of a round column; null: every cell is open
+  std::array<int, 3> block{0, 0, 0};     ///< index of this block
+  std::shared_ptr<const Ranks> ranks;    ///< the ranks that own the blocks; null: the whole column is here
+  std::shared_ptr<const Metric> metric;  ///< for a round column; null: every cell is open
 
-  /// Ghost layers along an axis: none where the axis is not active.
+  /// Ghost layers along an axis: none along an inactive axis.
   [[nodiscard]] int ghosts(int axis) const { return axis < dimensions ? halo : 0; }
   /// Entries of the padded box along an axis.
   [[nodiscard]] Index extent(int axis) const { return cells[std::size_t(axis)] + 2 * ghosts(axis); }
@@ -50,7 +50,7 @@ struct Grid {
   [[nodiscard]] std::size_t column_cell_count() const {
     return std::size_t(column_cells(0)) * std::size_t(column_cells(1)) * std::size_t(column_cells(2));
   }
-  /// Whether the column ends at the low (0) or high (1) side of this block; joined sides are no end.
+  /// Whether the column ends at the low (0) or high (1) side of this block; joined sides are not an end.
   [[nodiscard]] bool ends(int axis, int side) const {
     const auto a = std::size_t(axis);
     return !periodic[a] && (side == 0 ? before[a] : after[a]) == 0;
@@ -71,7 +71,7 @@ struct Grid {
   [[nodiscard]] double smallest_spacing() const {
     return *std::min_element(spacing.begin(), spacing.begin() + dimensions);
   }
-  /// Of a whole cell, m3.
+  /// Volume of a whole cell, m3.
   [[nodiscard]] double cell_volume() const { return spacing[0] * spacing[1] * spacing[2]; }
   /// Centre of cell i of an axis, m; the column begins at 0.
   [[nodiscard]] double centre(int axis, int i) const {

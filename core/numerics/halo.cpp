@@ -26,8 +26,8 @@ void Halo::copy_images(Field& field, int axis) const {
   }
 }
 
-/// The outermost owned layers go to the neighbours; side 0 is the low one. A face field has the low faces of the
-/// cells, so that the same layers are right for it; the last block's high face is a boundary and nobody's ghost.
+/// Sends the outermost owned layers to the neighbours; side 0 is the low one. A face field contains the low faces of
+/// cells, so the same layers serve; the last block's high face is a boundary and nobody's ghost.
 void Halo::send_and_receive(std::span<Field* const> fields, int axis) const {
   const int n = grid_.cells[std::size_t(axis)], depth = grid_.ghosts(axis);
   const MPI_Comm all = communicator(grid_);
@@ -43,7 +43,7 @@ void Halo::send_and_receive(std::span<Field* const> fields, int axis) const {
         for_each_layer_row(grid_, axis, side == 0 ? layer : n - depth + layer,
                            [&](Index b, Index e) { out.insert(out.end(), field->begin() + b, field->begin() + e); });
     in.resize(out.size());
-    // Between two blocks with joined sides both messages have one sender: the side tells them apart.
+    // Between two blocks with joined sides both messages have one sender: the side distinguishes them.
     check_mpi(
         MPI_Irecv(in.data(), int(in.size()), MPI_DOUBLE, neighbour, 1 - side, all, &requests[std::size_t(open++)]),
         "MPI_Irecv");

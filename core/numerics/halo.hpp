@@ -1,4 +1,4 @@
-// Ghost entries that other cells of the column own: on a neighbouring rank, or across joined sides.
+// Ghost entries owned by other cells of the column: on a neighbouring rank, or across joined sides.
 #pragma once
 
 #include <span>
@@ -8,8 +8,8 @@
 
 namespace polybed::core {
 
-/// Calls body(begin, end) for the rows of one layer of the padded box across an axis, the ghosts of the other axes
-/// included, so that corners are filled too when the axes are treated in turn.
+/// Calls body(begin, end) for the rows of one layer of the padded box across an axis. The layer includes the ghosts of
+/// the other axes, so that treating the axes in turn fills the corners too.
 template <class Body>
 void for_each_layer_row(const Grid& grid, int axis, int layer, Body&& body) {
   Box box{{-grid.ghosts(0), -grid.ghosts(1), -grid.ghosts(2)}, {}};
@@ -25,7 +25,7 @@ class Halo {
   explicit Halo(const Grid& grid) : grid_(grid) {}
 
   /// Fills the ghost layers of all the fields across an axis, on cells or on faces of any axis, with one message to
-  /// each neighbour; where the column ends nothing is touched. Collective.
+  /// each neighbour. The ghosts beyond the column's ends stay unchanged. Collective.
   void exchange(std::span<Field* const> fields, int axis) const;
 
  private:

@@ -1,4 +1,4 @@
-// A matrix given row by row, with hypre's algebraic multigrid: what its solvers on such matrices share.
+// A matrix given row by row, with hypre's algebraic multigrid: the common part of its solvers.
 #pragma once
 
 #include <HYPRE.h>
@@ -12,7 +12,7 @@
 
 namespace polybed::core {
 
-/// Rows are filled in order, then assembled; vectors are of the same length. Each rank fills those of its cells.
+/// Rows are filled in order, then assembled; vectors have the same length. Each rank fills the rows of its cells.
 class HypreRows {
  public:
   explicit HypreRows(const Grid& grid);
@@ -22,24 +22,24 @@ class HypreRows {
 
   void begin();
   void begin_row() { first_ = value_.size(); }
-  /// Adds to an entry of the present row; across periodic sides of one or two cells both neighbours are one.
+  /// Adds to an entry of the present row. Across periodic sides of one or two cells both neighbours are the same cell.
   void add(HYPRE_Int column, double value);
   void end_row() { row_size_.push_back(HYPRE_Int(value_.size() - first_)); }
 
   /// Row of a cell (core/numerics/blocks.hpp), owned or next to an owned one; below 0 beyond the column's ends.
   [[nodiscard]] HYPRE_Int row_of(Index cell) const { return HYPRE_Int(numbers_[std::size_t(cell)]); }
 
-  /// The matrix, and its hierarchy of BoomerAMG: HMIS coarsening, extended+i interpolation.
+  /// Assembles the matrix and the hierarchy of BoomerAMG: HMIS coarsening, extended+i interpolation.
   void assemble();
 
-  /// Right-hand side and solution, in the order of the rows.
+  /// Sets the right-hand side or the solution, in the order of the rows.
   void set_right(std::span<const double> values);
   void set_solution(std::span<const double> values);
   void get_solution(std::span<double> values);
 
-  /// A fixed number of cycles from a zero first guess.
+  /// Runs a fixed number of cycles from a zero first guess.
   void cycles(int count);
-  /// Conjugate gradients with one cycle as preconditioner, from the solution set; returns the iterations.
+  /// Conjugate gradients with one cycle as preconditioner, from the current solution; returns the iterations.
   int conjugate_gradients(double tolerance, int most_iterations);
 
  private:

@@ -12,9 +12,9 @@
 
 namespace polybed::core {
 
-/// Errors of a step are weighed by a relative tolerance and by absolute ones, which may follow the state. This sets the
-/// absolute ones, entry by entry. Collective. \param y  this rank's state  \param dydt  its rates with the implicit
-/// integrator, empty with the others
+/// Sets the absolute tolerances, entry by entry; they can depend on the state. A step's errors are weighed by them and
+/// a relative tolerance. Collective. \param y  this rank's state  \param dydt  its rates with the implicit integrator,
+/// else empty
 using TolerancesAt =
     std::function<void(std::span<const double> y, std::span<const double> dydt, std::span<double> atol)>;
 
@@ -25,8 +25,8 @@ inline void weigh_errors(double rtol, const TolerancesAt& atol, std::span<const 
   for (std::size_t n = 0; n < y.size(); ++n) weight[n] = 1 / (rtol * std::abs(y[n]) + weight[n]);
 }
 
-/// What an evaluation says: fine, or try again with a smaller step. Exceptions thrown by a problem pass
-/// through Integrator::step unharmed.
+/// Result of an evaluation: success, or retry with a smaller step. Integrator::step passes on exceptions from a
+/// problem.
 enum class Rate { ok, recoverable };
 
 /// dy/dt = f(t, y).
@@ -36,16 +36,16 @@ class OdeProblem {
   virtual Rate rates(double t, std::span<const double> y, std::span<double> dydt) = 0;
 };
 
-/// dy/dt = f(t, y), of which a part A y is too fast for explicit steps: linear, with coefficients that hold for a step.
+/// dy/dt = f(t, y) with a linear part A y that is too fast for explicit steps; A is constant during a step.
 class SplitProblem : public OdeProblem {
  public:
-  /// Takes the coefficients of A from the state that rates() was last asked about.
+  /// Takes the coefficients of A from the state of the last call to rates().
   virtual void hold() = 0;
   /// Adds `factor` times A y to `rates`.
   virtual void add_fast(double factor, std::span<const double> y, std::span<double> rates) = 0;
-  /// The longest step, s, that the rest of f allows where the coefficients were taken, or longer than any.
+  /// The longest step, s, that the rest of f allows at that state; very large without a limit.
   [[nodiscard]] virtual double longest_step() const = 0;
-  /// Solves x - gamma A x = r, where x holds r at first.
+  /// Solves x - gamma A x = r in place; x contains r at first.
   virtual void solve_fast(double gamma, std::span<double> x) = 0;
 };
 
@@ -77,18 +77,18 @@ struct IntegratorStatistics {
 class Integrator {
  public:
   virtual ~Integrator() = default;
-  /// Takes one accepted step from the present time, not beyond t_stop, and lands on t_stop exactly.
-  /// Throws NumericsError with the library's reason when no step can be taken.
+  /// Takes one accepted step from the present time, at most to t_stop, which it reaches exactly. Throws NumericsError
+  /// with the library's reason if no step succeeds.
   virtual StepReport step(double t_stop) = 0;
   /// The solution at a time inside the last step.
   virtual void interpolate(double t, std::span<double> y) const = 0;
   [[nodiscard]] virtual std::span<const double> state() const = 0;
   [[nodiscard]] virtual std::span<const double> derivative() const = 0;  ///< implicit only; else empty
-  /// Starts anew from (t, y): what comes after depends on the arguments alone, to the bit.
+  /// Starts anew from (t, y). The further solution depends on the arguments alone, to the bit.
   /// \param dydt  consistent rates (implicit only)  \param h0  first step, s; 0: the integrator chooses
   virtual void restart(double t, std::span<const double> y, std::span<const double> dydt, double h0) = 0;
   [[nodiscard]] virtual IntegratorStatistics statistics() const = 0;
-  /// Memory of its vectors, bytes, without those of the linear solver.
+  /// Memory of its vectors, bytes, without the linear solver's.
   [[nodiscard]] virtual std::size_t workspace() const = 0;
 };
 
@@ -96,19 +96,19 @@ struct ExplicitOptions {
   double rtol = 1e-4;
   std::vector<double> atol;                      ///< per entry
   double fixed_step = 0;                         ///< s; > 0: steps of one length, no error control
-  std::shared_ptr<const Ranks> ranks = nullptr;  ///< that hold parts of the state; null: it is all here
-  TolerancesAt atol_at = {};                     ///< in place of atol, which gives the size alone; empty: atol
+  std::shared_ptr<const Ranks> ranks = nullptr;  ///< ranks with parts of the state; null: it is all here
+  TolerancesAt atol_at = {};                     ///< in place of atol, which then gives only the size; empty: atol
 };
 
 struct ImplicitOptions {
   double rtol = 1e-4;
   std::vector<double> atol;                      ///< per entry
   std::vector<double> id;                        ///< 1: differential, 0: algebraic (left out of the error test)
-  std::shared_ptr<const Ranks> ranks = nullptr;  ///< that hold parts of the state; null: it is all here
+  std::shared_ptr<const Ranks> ranks = nullptr;  ///< ranks with parts of the state; null: it is all here
   int max_order = 2;
-  double linear_tolerance = 0.05;  ///< of the linear solve, relative to that of Newton; as IDA has it
+  double linear_tolerance = 0.05;  ///< of the linear solve, relative to Newton's; IDA's default
   int krylov_vectors = 30;
-  TolerancesAt atol_at = {};  ///< in place of atol, which gives the size alone; empty: atol
+  TolerancesAt atol_at = {};  ///< in place of atol, which then gives only the size; empty: atol
 };
 
 /// Bogacki and Shampine's method of order 3 with its embedded error estimate (ARKODE).

@@ -1,4 +1,4 @@
-// Explicit Runge-Kutta, or an additive pair of which one method is implicit, with error control, by ARKODE.
+// Explicit Runge-Kutta with error control, or an additive pair whose one method is implicit, from ARKODE.
 #include <arkode/arkode_arkstep.h>
 #include <fmt/format.h>
 
@@ -17,7 +17,7 @@ namespace {
 
 class ExplicitIntegrator : public Integrator {
  public:
-  /// \param split  the same problem, if a part of it is to be taken implicitly; else null
+  /// \param split  the same problem if a part of it is implicit; else null
   ExplicitIntegrator(OdeProblem& problem, SplitProblem* split, ExplicitOptions options)
       : problem_(problem),
         split_(split),
@@ -47,7 +47,7 @@ class ExplicitIntegrator : public Integrator {
       const int flag = ARKStepEvolve(memory_, t_stop, y_, &t, ARK_ONE_STEP);
       if (kept_) std::rethrow_exception(std::exchange(kept_, nullptr));
       if (flag >= 0) {
-        // The library goes on with steps that no process is as fast as, or that are lost in the round-off of time.
+        // The library accepts steps that are too short to make progress or are lost in the round-off of time.
         constexpr double least_step = 1e-18;  // s
         if (t <= time_ || (t - time_ < least_step && t < t_stop))
           throw NumericsError(
@@ -95,7 +95,7 @@ class ExplicitIntegrator : public Integrator {
     });
   }
 
-  /// The rates without the split. A step begins where its coefficients were taken: there they are known.
+  /// The rates without the split. They are already known where a step begins.
   Rate whole_rates(double t, std::span<const double> y, std::span<double> dydt) {
     const std::span<const double> begin = y_.span();
     if (t != time_ || kept_rates_.empty() || !std::equal(y.begin(), y.end(), begin.begin()))
@@ -104,7 +104,7 @@ class ExplicitIntegrator : public Integrator {
     return Rate::ok;
   }
 
-  /// The coefficients of the fast part, for a step that begins at the present state.
+  /// Takes the coefficients of the fast part for a step that begins at the present state.
   void hold() {
     if (split_ == nullptr) return;
     kept_rates_.resize(y_.span().size());
@@ -123,7 +123,7 @@ class ExplicitIntegrator : public Integrator {
     });
   }
 
-  /// The library takes half of what is stated.
+  /// The library uses half of the stated step.
   static int longest_step(N_Vector, double, double* stated, void* self) {
     constexpr double share_taken = 0.5;
     *stated = static_cast<ExplicitIntegrator*>(self)->longest_step_ / share_taken;
@@ -173,9 +173,8 @@ class ExplicitIntegrator : public Integrator {
       require_success(ARKStepWFtolerances(memory_, weigh), "ARKStepWFtolerances");
     else
       require_success(ARKStepSVtolerances(memory_, options_.rtol, atol_), "ARKStepSVtolerances");
-    // Gustafsson's controller for explicit methods: where stability, not accuracy, bounds the step, the default one
-    // runs into the bound again and again (a settled bed in water: 297 of 2006 tries rejected, with this one 29 of
-    // 1744).
+    // Gustafsson's controller for explicit methods. Where stability limits the step, the default one exceeds the limit
+    // again and again (a settled bed in water: 297 of 2006 tries rejected, with this one 29 of 1744).
     require_success(ARKStepSetAdaptivityMethod(memory_, ARK_ADAPT_EXP_GUS, 1, 0, nullptr),
                     "ARKStepSetAdaptivityMethod");
     if (options_.fixed_step > 0)
@@ -184,8 +183,8 @@ class ExplicitIntegrator : public Integrator {
       require_success(ARKStepSetInitStep(memory_, h0), "ARKStepSetInitStep");
   }
 
-  /// The pair of methods, and the problem's own solver of the implicit one: exact, so that nothing is iterated and the
-  /// rates follow from the solution.
+  /// Sets the pair of methods and the problem's own solver for the implicit one. It is exact: nothing is iterated, and
+  /// the rates follow from the solution.
   void set_split() {
     require_success(ARKStepSetTableNum(memory_, ARKODE_ARK324L2SA_DIRK_4_2_3, ARKODE_ARK324L2SA_ERK_4_2_3),
                     "ARKStepSetTableNum");
@@ -198,7 +197,7 @@ class ExplicitIntegrator : public Integrator {
       solver_->ops->solve = solve_stage;
     }
     require_success(ARKStepSetNonlinearSolver(memory_, solver_), "ARKStepSetNonlinearSolver");
-    // A step of another length costs nothing here: no range of lengths in which the present one is kept.
+    // A new step length costs nothing here, so no range of lengths keeps the present one.
     require_success(ARKStepSetFixedStepBounds(memory_, 1.0, 1.0), "ARKStepSetFixedStepBounds");
     require_success(ARKStepSetDeduceImplicitRhs(memory_, 1), "ARKStepSetDeduceImplicitRhs");
     require_success(ARKStepSetStabilityFn(memory_, longest_step, this), "ARKStepSetStabilityFn");
@@ -238,17 +237,17 @@ class ExplicitIntegrator : public Integrator {
   }
 
   OdeProblem& problem_;
-  SplitProblem* split_;  ///< null: all is explicit
+  SplitProblem* split_;  ///< null: everything is explicit
   ExplicitOptions options_;
   Context context_;
   Vector y_, atol_, error_, weight_;
   static constexpr std::size_t own_vectors = 5;  // these and the tolerances of the options
   void* memory_ = nullptr;
-  SUNNonlinearSolver solver_ = nullptr;  ///< of the split; it owns nothing
-  std::vector<double> kept_rates_;       ///< of the split: the rates of the whole where the step begins
+  SUNNonlinearSolver solver_ = nullptr;  ///< for the split; it owns nothing
+  std::vector<double> kept_rates_;       ///< for the split: the complete rates where the step begins
   double longest_step_ = 0;
   double time_ = 0, last_step_ = 0;
-  IntegratorStatistics closed_;  ///< of memories closed by restarts, and all steps
+  IntegratorStatistics closed_;  ///< sums over memories that restarts closed, and all steps
   std::exception_ptr kept_;
 };
 

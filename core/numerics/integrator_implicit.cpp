@@ -1,4 +1,4 @@
-// Backward differences with Newton and GMRES, by IDA.
+// Backward differences with Newton and GMRES, from IDA.
 #include <fmt/format.h>
 #include <ida/ida.h>
 #include <sunlinsol/sunlinsol_spgmr.h>
@@ -45,8 +45,8 @@ class ImplicitIntegrator : public Integrator {
     const long failed = newton_failures();
     let_steps_grow();
     int flag = try_step(stop, t);
-    // Rates that relax fast carry the round-off of their velocities, and a first guess by them over a long step is far
-    // off. The library gives up after ten errors too large; its own first step is short enough.
+    // Fast relaxation rates carry the round-off of their velocities, so the first guess after a long step is far off.
+    // The library gives up after ten error test failures; its own first step is short enough.
     if ((flag == IDA_ERR_FAIL || flag == IDA_CONV_FAIL) && since_origin_ == 0 && first_step_ > 0) {
       open(origin_, 0);
       flag = try_step(stop, t);
@@ -54,7 +54,7 @@ class ImplicitIntegrator : public Integrator {
     if (flag < 0)
       throw NumericsError(fmt::format("t = {:.9g} s: the implicit integrator cannot go on ({}), last step {:.3g} s",
                                       time_, flag_name(IDAGetReturnFlagName, flag), last_step_));
-    // The library goes on with steps that are lost in the round-off of time.
+    // The library accepts steps that are lost in the round-off of time.
     if (t <= since_origin_)
       throw NumericsError(fmt::format(
           "t = {:.9g} s: the implicit integrator stands still, its steps have shrunk to {:.3g} s", time_, last_step_));
@@ -131,8 +131,8 @@ class ImplicitIntegrator : public Integrator {
   }
 
   /// Counts the iterations of the last solve and returns whether a new preconditioner pays. The library requests one
-  /// only when the step length changes; with equal steps it ages. True at the first application of a solve at most,
-  /// since the preconditioner must not change within one.
+  /// only when the step length changes; with equal steps it ages. Returns true only at the first application in a
+  /// solve, since the preconditioner must not change within one.
   bool has_aged() {
     long iterations = 0;
     IDAGetNumLinIters(memory_, &iterations);
@@ -150,9 +150,9 @@ class ImplicitIntegrator : public Integrator {
     return failures;
   }
 
-  /// Where errors are small the library doubles steps until Newton's method fails, takes a quarter, and doubles again:
-  /// most of the work is for nothing. After a failure on a step longer than the last none gets longer than that for a
-  /// while, twice as long after each such failure. Steps stay equal meanwhile, without which the order stays 1.
+  /// The library doubles steps with small errors until Newton's method fails, takes a quarter, and doubles again, which
+  /// wastes most of the work. After a failure on a step longer than the last, no step exceeds that one for a while,
+  /// which doubles with each such failure. Steps are equal meanwhile; otherwise the order would stay 1.
   /// \param failures  of Newton's method in this step, each of which quarters it
   void hold_steps(double step, long failures) {
     constexpr long least = 25, most = 400;  // steps
@@ -166,17 +166,17 @@ class ImplicitIntegrator : public Integrator {
     }
   }
 
-  /// At the end of the step to come.
+  /// Called at the end of the next step.
   void let_steps_grow() {
     double step = 0;
     IDAGetCurrentStep(memory_, &step);
-    constexpr double by_doubling = 2, never = 1e9;  // what errors must allow, times this step
+    constexpr double by_doubling = 2, never = 1e9;  // required of the error test, times this step
     const bool free = held_ == 0 || 2 * step <= 1.01 * longest_;
     require_success(IDASetEtaFixedStepBounds(memory_, 1, free ? by_doubling : never), "IDASetEtaFixedStepBounds");
   }
 
-  /// Where the residual cannot be taken at y + sigma v the library takes the solution so far, often 0, for a good one,
-  /// and the guess of the step for its end: a failure that shortens the step, as others do.
+  /// If the residual cannot be computed at y + sigma v, the library accepts the present solution, often 0, and so the
+  /// guess of the step. Report a failure that shortens the step, as other failures do.
   static int solve(SUNLinearSolver solver, SUNMatrix none, N_Vector x, N_Vector b, sunrealtype tolerance) {
     const int flag = SUNLinSolSolve_SPGMR(solver, none, x, b, tolerance);
     return flag == SUNLS_ATIMES_FAIL_REC ? SUNLS_CONV_FAIL : flag;
@@ -246,11 +246,11 @@ class ImplicitIntegrator : public Integrator {
   static constexpr std::size_t own_vectors = 10;  // these, and two of the options
   void* memory_ = nullptr;
   SUNLinearSolver solver_ = nullptr;
-  // The library counts from the last restart: a first step must not be lost in the round-off of a late time.
+  // The library counts time from the last restart: a first step must not be lost in the round-off of a late time.
   double origin_ = 0, since_origin_ = 0, time_ = 0, last_step_ = 0, first_step_ = 0;
   long iterations_ = 0, fewest_ = 0, excess_ = 0;  ///< of the linear solves since the preconditioner was made
-  double longest_ = 0;                             ///< that a step may be while steps are held, s
-  long held_ = 0, holds_ = 0;                      ///< steps for which they still are, and were at the last failure
+  double longest_ = 0;                             ///< limit of a step while steps are held, s
+  long held_ = 0, holds_ = 0;                      ///< steps for which they are held, now and after the last failure
   IntegratorStatistics closed_;
   std::exception_ptr kept_;
 };

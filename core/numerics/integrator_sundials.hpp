@@ -1,4 +1,4 @@
-// What both integrators share of SUNDIALS: its context, its errors as ours, and exceptions that must not cross it.
+// Common parts of the SUNDIALS integrators: context, errors, and exceptions, which must not cross the library.
 #pragma once
 
 #include <sundials/sundials_context.h>
@@ -27,7 +27,7 @@ class Context {
   SUNContext context_ = nullptr;
 };
 
-/// Runs a callback's work; an exception is kept for the caller, as none may cross the C library.
+/// Runs a callback's work and stores its exception for the caller, as none may cross the C library.
 template <class Work>
 int guarded(std::exception_ptr& kept, Work&& work) {
   try {
@@ -38,15 +38,15 @@ int guarded(std::exception_ptr& kept, Work&& work) {
   }
 }
 
-/// The library's own messages are not shown: what it returns is turned into ours.
+/// Suppresses the library's own messages: its return values become our errors.
 void keep_silent(int, const char*, const char*, char*, void*);
 
-/// Puts the weighted local error of the last step into a report: the norm over all ranks, the worst entry of this one.
-/// Collective. \param error, weight  of this rank's entries
+/// Adds the weighted local error of the last step to a report: the norm over all ranks, the worst entry on this one.
+/// Collective. \param error, weight  for this rank's entries
 void report_error(std::span<const double> error, std::span<const double> weight, const Ranks* ranks,
                   StepReport& report);
 
-/// The name of a flag, by the library's function that makes it.
+/// The name of a flag from the library's own function.
 [[nodiscard]] std::string flag_name(char* (*name)(long int), int flag);
 
 }  // namespace polybed::core

@@ -50,7 +50,7 @@ void scale(double c, N_Vector x, N_Vector z) {
   in_vectors<scale_of>(c, entries(x).data(), entries(z).data(), entries(z).size());
 }
 
-/// z = sum c_k x_k, where z may be x_0: two terms a pass, in blocks that stay in the cache.
+/// z = sum c_k x_k; z can be x_0. Adds two terms per pass, in blocks that stay in the cache.
 int linear_combination(int count, double* c, N_Vector* x, N_Vector z) {
   constexpr std::size_t block = 2048;
   const std::span<double> to = entries(z);
@@ -86,7 +86,7 @@ void magnitude(N_Vector x, N_Vector z) {
 
 const double* constant(N_Vector x) { return entries(x).data(); }
 
-/// Over the entries of the whole vector.
+/// Sum over the entries of the whole vector.
 template <class Term, class... More>
 double sum_over(N_Vector x, More... more) {
   const MPI_Comm all = N_VGetVectorID(x) == SUNDIALS_NVEC_PARALLEL ? NV_COMM_P(x) : MPI_COMM_SELF;

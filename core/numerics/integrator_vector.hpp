@@ -1,6 +1,5 @@
-// The vectors that SUNDIALS computes with: its serial ones, and its parallel ones for a column on several ranks, with
-// the sums over entries written so that the compiler works on several entries at once. The library's own take a quarter
-// of a run.
+// The vectors of SUNDIALS: serial ones, and parallel ones for a column on several ranks. The sums over entries are
+// written so that the compiler vectorises them; the library's own take a quarter of a run.
 #pragma once
 
 #include <nvector/nvector_serial.h>
@@ -12,7 +11,7 @@
 
 namespace polybed::core {
 
-/// A vector that owns this rank's entries; clones made by the library compute alike.
+/// A vector that owns this rank's entries. Clones made by the library use the same operations.
 class Vector {
  public:
   /// \param size   of this rank's part  \param ranks  null: there are no other parts
@@ -29,7 +28,7 @@ class Vector {
   N_Vector vector_;
 };
 
-/// This rank's entries of a vector that the library hands over.
+/// This rank's entries of a vector from the library.
 [[nodiscard]] std::span<double> entries(N_Vector v);
 
 }  // namespace polybed::core

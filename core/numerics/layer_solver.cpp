@@ -8,10 +8,10 @@ namespace polybed::core {
 
 namespace {
 
-/// Beyond, setting up costs more than multigrid.
+/// Above this the setup costs more than multigrid.
 constexpr std::size_t widest_layer = 64;
 
-/// The longest axis that ends in walls or openings; a column of joined sides has its height.
+/// The longest axis that ends in walls or openings; with joined sides the height.
 int long_axis(const Grid& grid) {
   int longest = 1;
   for (const int axis : {0, 2})
@@ -25,7 +25,7 @@ std::size_t cells_across(const Grid& grid) {
   return grid.cell_count() / std::size_t(grid.cells[std::size_t(long_axis(grid))]);
 }
 
-/// Inverts a positive definite matrix in its place, by Gauss and Jordan without pivots.
+/// Inverts a positive definite matrix in place, by Gauss-Jordan elimination without pivots.
 void invert(double* matrix, std::size_t n, std::size_t pitch) {
   for (std::size_t k = 0; k < n; ++k) {
     double* pivot = matrix + k * pitch;
@@ -75,7 +75,7 @@ LayerSolver::LayerSolver(const Grid& grid)
   });
 }
 
-/// The matrix of one layer, its neighbours left out.
+/// Adds the matrix of one layer, without its neighbours.
 void LayerSolver::add_layer(std::size_t layer, const FaceSpans& coefficient, std::span<const double> shift) {
   double* matrix = inverse_of(layer);
   std::fill_n(matrix, width_ * pitch_, 0.0);
@@ -83,7 +83,7 @@ void LayerSolver::add_layer(std::size_t layer, const FaceSpans& coefficient, std
   for (std::size_t i = 0; i < width_; ++i) {
     const auto cell = std::size_t(cell_[i] + above);
     double own = shift.empty() ? 0 : shift[cell];
-    std::size_t before = 1;  // cells of the layer from one to its neighbour along the axis
+    std::size_t before = 1;  // cells from one cell of the layer to its neighbour along the axis
     for (int d = 0; d < grid_.dimensions; ++d) {
       const auto a = std::size_t(d), n = std::size_t(grid_.cells[a]);
       const double w = 1 / (grid_.spacing[a] * grid_.spacing[a]);

@@ -18,10 +18,10 @@ namespace polybed::core {
 
 namespace {
 
-/// Beyond, the algebraic multigrid needs fewer.
+/// Above this the algebraic multigrid needs fewer.
 constexpr int most_iterations = 60;
 
-/// Beyond, a factorisation takes longer than the run may wait, above all in three dimensions.
+/// Above this a factorisation takes too long, above all in three dimensions.
 constexpr std::size_t most_cells_of_factorisation = 20'000;
 
 /// Cells longer than 3 to 1: at 5 to 1 the structured multigrid takes 93 iterations, the algebraic one 10.
@@ -48,8 +48,8 @@ struct PoissonSolver::Hypre {
   HYPRE_StructStencil stencil = nullptr;
   HYPRE_StructMatrix matrix = nullptr;
   HYPRE_StructVector source = nullptr, solution = nullptr;
-  HYPRE_StructSolver cg = nullptr, multigrid = nullptr;  ///< null: to be set up anew
-  int solves = 0, best = 0, spent = 0;  ///< since then; iterations of the first, and those that the rest took beyond
+  HYPRE_StructSolver cg = nullptr, multigrid = nullptr;  ///< null: set up at the next solve
+  int solves = 0, best = 0, spent = 0;  ///< since the setup; iterations of the first, and extra ones since
   std::vector<double> entries, packed;
 
   explicit Hypre(const Grid& g) : dimensions(g.dimensions), all(communicator(g)) {
@@ -116,7 +116,7 @@ struct PoissonSolver::Hypre {
     HYPRE_StructMatrixAssemble(matrix);
   }
 
-  /// Entries that reach beyond the column must be zero; their part of the diagonal stays (Dirichlet) by itself.
+  /// Entries beyond the column must be zero; their part of the diagonal remains (Dirichlet).
   void drop_outward(const Grid& g) {
     const auto n = g.cells;
     for (int d = 0; d < dimensions; ++d) {
@@ -147,8 +147,8 @@ struct PoissonSolver::Hypre {
     });
   }
 
-  /// Conjugate gradients with one PFMG cycle as preconditioner; returns the iterations. The hierarchy may be that of
-  /// earlier coefficients: it is only a preconditioner, and is renewed when the iterations it costs outweigh it.
+  /// Conjugate gradients with one PFMG cycle as preconditioner; returns the iterations. The hierarchy can come from
+  /// earlier coefficients, as it is only a preconditioner; it is renewed when it costs too many iterations.
   int solve(const Grid& g, const FaceSpans& coefficient, std::span<const double> shift, const Field& right, Field& p,
             double tolerance) {
     set_matrix(g, coefficient, shift);
@@ -169,7 +169,7 @@ struct PoissonSolver::Hypre {
     multigrid = cg = nullptr;
   }
 
-  /// Sets the hierarchy up for the present matrix.
+  /// Sets up the hierarchy for the present matrix.
   void renew() {
     forget();
     HYPRE_StructPCGCreate(all, &cg);
@@ -186,8 +186,8 @@ struct PoissonSolver::Hypre {
     solves = spent = 0;
   }
 
-  /// A solve took so many iterations. Setting up costs as much as about four; the mean of the solves since then must
-  /// not rise beyond what a set-up for each would cost.
+  /// Records the iterations of a solve. A setup costs as much as about four; the mean over the solves since the last
+  /// one must not exceed the cost of a setup for each solve.
   void age(int iterations) {
     if (solves == 0) best = iterations;
     ++solves;
@@ -232,7 +232,7 @@ void subtract(const Grid& grid, double constant, Field& field) {
   });
 }
 
-/// Takes the mean over the column out of a field. \param owned  work space, of the cells
+/// Subtracts the mean over the column from a field. \param owned  work space for the cells
 void remove_mean(const Grid& grid, Field& field, std::vector<double>& owned) {
   owned.clear();
   for_each_row(grid,
@@ -271,7 +271,7 @@ PoissonResult PoissonSolver::solve(const FaceSpans& coefficient, std::span<const
   const std::span<const double> diagonal = constant_open ? std::span<const double>(pinned_) : shift;
   const Field& source = constant_open ? balanced_ : given_source;
   PoissonResult result;
-  // The residual that the iteration carries along and the true one drift apart by round-off: twice is granted.
+  // The residual carried along in the iteration differs from the true one by round-off: accept twice the tolerance.
   const auto judge = [&](const char* solver, bool fine) {
     result.solver = solver;
     result.residual = relative_residual(grid_, halo_, coefficient, shift, source, p);

@@ -1,5 +1,5 @@
-// Elliptic equations on the cells of a grid, by hypre: the pressure's Poisson equation, and the coupled
-// system of the implicit integrator's preconditioner.
+// Elliptic equations on the cells of a grid, with hypre: the pressure's Poisson equation, and the coupled system in the
+// implicit integrator's preconditioner.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@
 
 namespace polybed::core {
 
-/// Starts MPI, if nobody has, and hypre; once per process. Throws NumericsError.
+/// Starts MPI, if it does not run yet, and hypre; once per process. Throws NumericsError.
 void open_linear_solvers();
 
 using FaceSpans = std::array<std::span<const double>, 3>;  ///< one padded array per active axis
@@ -24,14 +24,14 @@ struct PoissonResult {
   bool converged = false;
   int iterations = 0;
   double residual = 0;      ///< true relative residual, recomputed after the solve
-  const char* solver = "";  ///< which one gave the answer
+  const char* solver = "";  ///< the one that found the solution
 };
 
-/// Solves shift p - div(B grad p) = source on the cells of the column. Collective.
-/// The coefficient on a boundary face says what holds there: 0, no flux; else p = 0 in the centre of the
-/// ghost cell. Where rows are short and coefficients along them alike a direct solver of the row means preconditions;
-/// elsewhere multigrid, whose hierarchy is kept while it serves. The residual is always the true one, recomputed.
-/// Where rows are short each rank solves for the whole column: p has the same bits on any number of ranks. Elsewhere it
+/// Solves shift p - div(B grad p) = source on the cells of the column. Collective. The coefficient on a boundary face
+/// sets the boundary condition: 0, no flux; else p = 0 in the centre of the ghost cell. Short rows with similar
+/// coefficients are preconditioned by the row-mean solver, others by multigrid, whose hierarchy is reused while it
+/// pays. The residual is recomputed. With short rows each rank solves the whole column and p has the same bits on any
+/// number of ranks; otherwise it agrees within the tolerance.
 /// is the same within the tolerance.
 class PoissonSolver {
  public:
@@ -45,7 +45,7 @@ class PoissonSolver {
   /// \param tolerance    of the residual relative to the source's norm
   PoissonResult solve(const FaceSpans& coefficient, std::span<const double> shift, const Field& source, Field& p,
                       double tolerance);
-  /// Begins anew: what comes next does not depend on earlier solves.
+  /// Starts anew: further solves do not depend on earlier ones.
   void forget();
 
  private:
@@ -56,12 +56,12 @@ class PoissonSolver {
 
   Grid grid_;
   Halo halo_;
-  std::unique_ptr<Whole> whole_;         ///< empty where ranks share the solution
-  std::unique_ptr<RowMeanSolver> rows_;  ///< empty where it does not serve
-  std::unique_ptr<Hypre> hypre_;         ///< empty until it is asked
-  Field balanced_;                       ///< the source without its mean, where a constant is left open
-  Field pinned_;                         ///< and the diagonal that holds it
-  std::vector<double> owned_;            ///< kept, so that its mean allocates nothing
+  std::unique_ptr<Whole> whole_;         ///< empty if ranks share the solution
+  std::unique_ptr<RowMeanSolver> rows_;  ///< empty if it does not suit the column
+  std::unique_ptr<Hypre> hypre_;         ///< empty until its first use
+  Field balanced_;                       ///< the source without its mean, if a constant is open
+  Field pinned_;                         ///< and the diagonal that fixes it
+  std::vector<double> owned_;            ///< stored, so that its mean allocates nothing
 };
 
 /// An approximate inverse for two coupled unknowns per cell, with q = L s,
@@ -70,8 +70,8 @@ class PoissonSolver {
 ///   c q/L - div((C22 - C21 C12/C11) grad q) = r2 - (C21/C11) r1,
 /// exact where C21/C11 is even and diagonal_p 0. Both are symmetric, so each is
 /// solved by a method for one unknown.
-/// Boundary faces: p as in PoissonSolver by C11, q likewise by C12 and C22. Where a direct method serves, each rank
-/// solves for the whole column.
+/// Boundary faces: p as in PoissonSolver with C11, q likewise with C12 and C22. Each rank solves for the whole column
+/// where a direct method suits it.
 class BlockSolver {
  public:
   explicit BlockSolver(const Grid& grid);
@@ -83,7 +83,7 @@ class BlockSolver {
   /// \param slope  L on cells, >= 0; q is 0 where it is 0  \param diagonal_p  on cells, >= 0; empty: 0
   [[nodiscard]] bool setup(const FaceSpans& c11, const FaceSpans& c12, const FaceSpans& c21, const FaceSpans& c22,
                            const Field& slope, const Field& diagonal_p, double c);
-  /// p and q of the owned cells. Collective. \param cycles  of multigrid, where it serves
+  /// p and q of the owned cells. Collective. \param cycles  for multigrid, if it is used
   void apply(const Field& r1, const Field& r2, Field& p, Field& q, int cycles);
 
  private:
@@ -93,7 +93,7 @@ class BlockSolver {
 
   Grid grid_;
   Halo halo_;
-  std::unique_ptr<Whole> whole_;  ///< empty where ranks share the solution
+  std::unique_ptr<Whole> whole_;  ///< empty if ranks share the solution
   std::unique_ptr<Scalar> of_p_, of_q_;
   FaceField c12_;       ///< over the square of the distance
   FaceField rest_;      ///< C22 - C21 C12/C11

@@ -11,7 +11,7 @@ namespace {
 
 constexpr int most_algebraic_iterations = 200;
 
-/// The same rows as the structured matrix has, cell by cell.
+/// Fills in the same rows as in the structured matrix, cell by cell.
 void fill(const Grid& grid, const FaceSpans& coefficient, std::span<const double> shift, HypreRows& rows) {
   rows.begin();
   for_each_row(grid, [&](Index begin, Index end) {

@@ -1,4 +1,4 @@
-// The pressure's equation by algebraic multigrid, where the structured one is slow or fails: cells much longer than
+// Algebraic multigrid for the pressure equation, where the structured one is slow or fails: cells much longer than
 // wide.
 #pragma once
 
@@ -11,13 +11,13 @@
 namespace polybed::core {
 
 /// Conjugate gradients with BoomerAMG. Arguments as in PoissonSolver::solve; p is the first guess, then the solution.
-/// Returns the iterations; whether they were enough is for the caller to see from the residual.
+/// Returns the iterations; the caller checks the residual for convergence.
 int solve_algebraically(const Grid& grid, const FaceSpans& coefficient, std::span<const double> shift,
                         const Field& source, Field& p, double tolerance);
 
 class HypreRows;
 
-/// A fixed number of cycles of BoomerAMG for shift p - div(B grad p) = source, from p = 0. Collective.
+/// A fixed number of BoomerAMG cycles for shift p - div(B grad p) = source, from p = 0. Collective.
 class AlgebraicCycles {
  public:
   explicit AlgebraicCycles(const Grid& grid);

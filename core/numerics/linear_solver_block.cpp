@@ -12,7 +12,7 @@
 
 namespace polybed::core {
 
-/// One symmetric equation, shift x - div(B grad x) = r: exactly where rows are short, else by cycles of multigrid.
+/// Solves shift x - div(B grad x) = r: exactly with short rows, else by cycles of multigrid.
 class BlockSolver::Scalar {
  public:
   explicit Scalar(const Grid& grid) {
@@ -110,7 +110,7 @@ bool BlockSolver::setup(const FaceSpans& c11, const FaceSpans& c12, const FaceSp
         }
       }
       share_[cell] = to_p > 0 ? to_q / to_p : 0;
-      constexpr double firm = 1e12;  // where nothing presses back q is 0 to round-off
+      constexpr double firm = 1e12;  // q is 0 to round-off where the slope is 0
       const double most = firm * (stiffness + c);
       own_[cell] = slope[cell] * most > c ? c / slope[cell] : most;
     }
@@ -149,7 +149,7 @@ void BlockSolver::apply(const Field& r1, const Field& r2, Field& p, Field& q, in
   of_p_->apply(source_, p, cycles);
 }
 
-/// The ghosts of other cells, and 0 where the column ends.
+/// Sets the ghosts owned by other cells, and 0 beyond the column's ends.
 void BlockSolver::set_beyond_ends(Field& q) const {
   for (int axis = 0; axis < grid_.dimensions; ++axis) {
     for (const int side : {0, 1})

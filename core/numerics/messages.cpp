@@ -22,7 +22,7 @@ Messages::~Messages() = default;
 
 void Messages::start_bytes(const std::byte* out, std::byte* in, std::size_t size) {
   constexpr int tag = 17;
-  constexpr std::size_t longest = std::size_t(1) << 30;  // MPI counts bytes in an int: longer ones go in several parts
+  constexpr std::size_t longest = std::size_t(1) << 30;  // MPI counts bytes in an int: longer messages are split
   for (std::size_t r = 0; r < to_.size(); ++r)
     for (std::size_t left = std::size_t(from_[r]) * size; left > 0;) {
       const std::size_t bytes = std::min(left, longest);

@@ -1,4 +1,4 @@
-// Items that ranks send each other along a pattern made once: to whom and how many.
+// Exchanges items between ranks with a fixed pattern: destinations and numbers of items.
 #pragma once
 
 #include <cstddef>
@@ -13,18 +13,18 @@ namespace polybed::core {
 
 class Messages {
  public:
-  /// Collective. \param to  how many items go to each rank, in the order of ranks; empty without ranks
+  /// Collective. \param to  number of items for each rank, in the order of ranks; empty without ranks
   Messages(std::shared_ptr<const Ranks> ranks, std::vector<int> to);
   ~Messages();
   Messages(const Messages&) = delete;
   Messages& operator=(const Messages&) = delete;
 
-  /// How many items come, from all ranks together, and how many come from each.
+  /// Number of incoming items, in total and from each rank.
   [[nodiscard]] std::size_t incoming() const { return incoming_; }
   [[nodiscard]] const std::vector<int>& from() const { return from_; }
 
-  /// Begins to send `out` (in the order of ranks) and to receive `in`; both must stay until finish(). The same type and
-  /// the same call on every rank.
+  /// Starts to send `out` (in the order of ranks) and to receive `in`; both must exist until finish(). Every rank must
+  /// make the same call with the same type.
   template <class Item>
   void start(std::span<const Item> out, std::span<Item> in) {
     static_assert(std::is_trivially_copyable_v<Item>);

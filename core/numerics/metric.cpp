@@ -9,7 +9,7 @@ namespace polybed::core {
 
 namespace {
 
-/// Fills what of the padded box lies in the column, and the rows beyond its bottom and top as those beside them.
+/// Fills the entries of the padded box in the column, and copies its bottom and top rows to the rows beyond.
 class Spreading {
  public:
   Spreading(const Grid& grid, Metric& metric) : grid_(grid), metric_(metric) {}

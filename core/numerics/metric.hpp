@@ -1,15 +1,14 @@
-// What of a grid's equal cells is open where the wall of a round column does not follow them, or where they lie around
-// an axis.
+// The open parts of a grid's equal cells: where the wall of a round column cuts them, or where they lie around an axis.
 //
-// A cell has the open volume theta V, a face the open area alpha A, of those of a whole cell and face:
+// The open volume of a cell is theta V and the open area of a face alpha A, with V and A of a whole cell and face:
 //
 //   theta_c h dphi/dt = -sum alpha_f phi_f U_f,   sum alpha_f J_f = 0.
 //
-// A face's momentum has the mean volume of the two cells beside it, so that its convection telescopes. Around an axis
-// alpha and theta grow with the radius, and a box as wide as the radius and pi times as deep has the column's area.
+// A face's momentum has the mean volume of its two cells, so that its convection telescopes. Around an axis alpha and
+// theta grow with the radius; a box as wide as the radius and pi times as deep has the column's area.
 //
-// The pressure of a wall is that of its cell: on the area that the open faces of a cell lack it leaves theta grad p, so
-// that an even pressure pushes nothing, and a bed rests in a cone as it does in a box.
+// The pressure at a wall is that in its cell. It acts on the closed area of the cell's faces and leaves theta grad p:
+// an even pressure pushes nothing, and a bed rests in a cone as it does in a box.
 #pragma once
 
 #include <algorithm>
@@ -26,14 +25,14 @@ namespace polybed::core {
 /// Height and diameter of a column, m: core::Column::profile.
 using Taper = std::vector<std::pair<double, double>>;
 
-/// Of the whole column, in one layer of cells; x runs fastest.
+/// The whole column, in one layer of cells; x runs fastest.
 struct CrossSection {
   int width = 0, depth = 0;    ///< cells along x and z
   std::vector<double> volume;  ///< theta; 0: closed
   std::vector<double> open_y;  ///< alpha of the low faces along y
   std::vector<double> open_x;  ///< alpha of the low faces along x, width + 1 a row
   std::vector<double> open_z;  ///< and along z, depth + 1 rows; empty in two dimensions
-  std::vector<double> wall;    ///< of curved walls: area over distance and open volume, 1/m2
+  std::vector<double> wall;    ///< for curved walls: area over distance and open volume, 1/m2
   std::vector<double> radius;  ///< of the low faces along x, m; empty unless the cells lie around an axis
 
   [[nodiscard]] double& volume_of(int i, int k) { return volume[at(i, k)]; }
@@ -43,21 +42,21 @@ struct CrossSection {
 };
 
 struct Metric {
-  std::vector<CrossSection> layers;  ///< from the bottom; one: all alike; else with what lies on the top
+  std::vector<CrossSection> layers;  ///< from the bottom; one entry: all alike; else one more for the top
   Taper taper;
-  Field volume;              ///< theta
-  Field per_volume;          ///< 1/theta; 0 where closed
-  FaceField open;            ///< alpha; 0 where closed
-  FaceField per_volume_on;   ///< 1 over the volume of a face's momentum
-  FaceField wall;            ///< what a curved wall's no-slip takes from a velocity, over the kinematic viscosity, 1/m2
-  Field per_radius;          ///< 1/r of cells, 1/m; 0 in a box and a cylinder
-  Field per_radius_on;       ///< and of faces along x
-  bool around_axis = false;  ///< the low end along x is an axis and no wall
+  Field volume;                              ///< theta
+  Field per_volume;                          ///< 1/theta; 0 where closed
+  FaceField open;                            ///< alpha; 0 where closed
+  FaceField per_volume_on;                   ///< 1 over the volume of a face's momentum
+  FaceField wall;                            ///< no-slip at a curved wall: damping over the kinematic viscosity, 1/m2
+  Field per_radius;                          ///< 1/r of cells, 1/m; 0 in a box and a cylinder
+  Field per_radius_on;                       ///< and of faces along x
+  bool around_axis = false;                  ///< the low end along x is an axis, without a wall
   std::array<std::vector<Index>, 3> closed;  ///< faces of the padded box without an open part
 
   [[nodiscard]] bool tapered() const { return layers.size() > 1; }
-  /// The cross-section of a layer of the column, and the one on whose low faces a layer of faces lies; beyond the ends
-  /// that of the outermost.
+  /// The cross-section of a layer of the column, and the one on whose low faces a layer of faces lies. Beyond the ends
+  /// the outermost one.
   [[nodiscard]] const CrossSection& layer(int y) const { return layers[clamped(y, 2)]; }
   [[nodiscard]] const CrossSection& level(int y) const { return layers[clamped(y, 1)]; }
 
@@ -67,10 +66,10 @@ struct Metric {
   }
 };
 
-/// Of a block, or the whole column, with the shape of the column that it is a part of; null for a box.
+/// Metric of a block or of the whole column, from the shape of its column; null for a box.
 [[nodiscard]] std::shared_ptr<const Metric> metric_of(const Grid& grid, ColumnShape shape, const Taper& taper = {});
 
-/// Cells all alike: nothing is left of it in a kernel.
+/// Equal cells: the compiler removes it from a kernel.
 struct UniformMetric {
   static constexpr bool radial = false;
   static constexpr double volume(Index) { return 1; }
@@ -79,10 +78,10 @@ struct UniformMetric {
   static constexpr double per_volume_on(std::size_t, Index) { return 1; }
 };
 
-/// Of a round column.
+/// Metric of a round column.
 class GeneralMetric {
  public:
-  static constexpr bool radial = true;  ///< there may be an axis; in a cylinder what it adds is 0
+  static constexpr bool radial = true;  ///< there can be an axis; in a cylinder its terms are 0
   explicit GeneralMetric(const Metric& metric)
       : volume_(metric.volume.data()),
         per_volume_(metric.per_volume.data()),
@@ -129,8 +128,8 @@ void for_each_open_row(const Grid& grid, const Box& box, Body&& body) {
 [[nodiscard]] double open_cells_of_layer(const Grid& grid, int layer = 0);
 [[nodiscard]] double open_faces_below(const Grid& grid, int layer);
 
-/// What the solvers of elliptic equations, which know equal cells alone, take for coefficients on faces and a source on
-/// cells: each times its open share. Closed faces between cells keep a billionth, so that no cell stands alone.
+/// Multiplies face coefficients and a cell source by their open shares: the elliptic solvers assume equal cells. Closed
+/// faces between cells keep a billionth, so that no cell is isolated.
 void weigh_faces(const Grid& grid, FaceField& coefficient);
 void weigh_cells(const Grid& grid, Field& source);
 

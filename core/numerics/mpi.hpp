@@ -1,4 +1,4 @@
-// MPI for the files of core that speak it.
+// MPI for the files in core that call it.
 #pragma once
 
 #include <mpi.h>
@@ -8,13 +8,13 @@
 
 namespace polybed::core {
 
-/// The communicator of the ranks that share a column; this process alone for none.
+/// The communicator of the ranks that share a column; this process alone without ranks.
 [[nodiscard]] inline MPI_Comm communicator(const Ranks* ranks) {
   return ranks == nullptr ? MPI_COMM_SELF : MPI_Comm_f2c(ranks->handle());
 }
 [[nodiscard]] inline MPI_Comm communicator(const Grid& grid) { return communicator(grid.ranks.get()); }
 
-/// Turns what an MPI call returns into an MpiError.
+/// Throws MpiError if an MPI call failed.
 void check_mpi(int code, const char* call);
 
 }  // namespace polybed::core

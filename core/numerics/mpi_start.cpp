@@ -15,8 +15,8 @@ namespace polybed::core {
 
 namespace {
 
-/// Variables of this process while it lives: Open MPI reads its settings when it starts, and processes that this one
-/// starts must not find them. A variable that the user has set stands.
+/// Environment variables of this process while it lives. Open MPI reads its settings when it starts, and child
+/// processes must not inherit them. A variable set by the user stays.
 class Settings {
  public:
   void set(const char* name, const char* value) {
@@ -34,7 +34,7 @@ class Settings {
   std::vector<std::string> names_;
 };
 
-/// Whether more ranks share this machine than it lets them have cores.
+/// Whether the ranks on this machine outnumber the cores that they can use.
 bool oversubscribed() {
   const char* ranks = std::getenv("OMPI_COMM_WORLD_LOCAL_SIZE");
   cpu_set_t cores;
@@ -68,8 +68,8 @@ void open_mpi() {
     settings.set("OMPI_MCA_orte_create_session_dirs", "0");
     settings.set("OMPI_MCA_pml", "ob1");
     settings.set("OMPI_MCA_btl", "self");
-    // A process on its own is bound to no core: hwloc need not look for cores, nor load OpenGL and OpenCL and ask ten X
-    // servers for their screens, a fifth of the time that a short run takes.
+    // A single process is bound to no core: hwloc then need not look for cores, nor load OpenGL and OpenCL and query
+    // ten X servers for their screens, which takes a fifth of a short run.
     settings.set("HWLOC_COMPONENTS", "no_os,stop");
     settings.set("HWLOC_PLUGINS_PATH", "/nonexistent");
   } else if (oversubscribed()) {

@@ -7,9 +7,9 @@
 
 namespace polybed::core {
 
-/// Calls body(axis) for the axes of a grid, each a constant of the compiler: within a loop over cells nothing is left
-/// of the loop over axes, so that the other is vectorised. A body with loops in a kernel of core::in_vectors has to be
-/// always_inline: g++ leaves it outside otherwise, at the least width.
+/// Calls body(axis) for the axes of a grid, each a compile-time constant: the compiler then removes the loop over axes
+/// from a loop over cells and vectorises the latter. A body with loops in a kernel of core::in_vectors must be
+/// always_inline; otherwise g++ compiles it separately, at the least width.
 template <std::size_t dimensions, class Body>
 [[gnu::always_inline]] inline void for_each_axis(Body&& body) {
   body(std::integral_constant<std::size_t, 0>{});
@@ -17,25 +17,25 @@ template <std::size_t dimensions, class Body>
   if constexpr (dimensions == 3) body(std::integral_constant<std::size_t, 2>{});
 }
 
-/// Slope of van Albada (1982) from the differences a, b on either side; 0 at an extremum. Without the usual
-/// small number below the fraction line, so that it scales with its arguments: a species may be cut in two.
-/// Where the product is above 0 the denominator is, too.
+/// Slope of van Albada (1982) from the differences a, b on either side; 0 at an extremum. The usual small number in the
+/// denominator is left out, so that the slope scales with its arguments: a species can be split in two. A product above
+/// 0 implies a denominator above 0.
 [[nodiscard]] inline double limited_slope(double a, double b) {
   const double product = a * b;
   return product > 0 ? product * (a + b) / (a * a + b * b) : 0.0;
 }
 
-/// Difference over one cell of the quantity q at entry c, taken against a velocity of sign `u`: first order.
+/// Difference over one cell of the quantity q at entry c, upwind for a velocity of sign `u`: first order.
 struct UpwindDifference {
   static double at(const double* q, Index c, Index s, double u) { return u > 0 ? q[c] - q[c - s] : q[c + s] - q[c]; }
 };
 
-/// Value of q at the face between c - s and c, taken from the side that the velocity u comes from: first order.
+/// Value of q at the face between c - s and c, upwind for the velocity u: first order.
 struct UpwindFace {
   static double at(const double* q, Index c, Index s, double u) { return u > 0 ? q[c - s] : q[c]; }
 };
 
-/// The same with half a limited slope (TVD): second order where q is smooth, bounded everywhere.
+/// The same plus half a limited slope (TVD): second order where q is smooth, bounded everywhere.
 struct LimitedFace {
   static double at(const double* q, Index c, Index s, double u) {
     const double below = q[c - s] - q[c - 2 * s], here = q[c] - q[c - s], above = q[c + s] - q[c];
@@ -50,8 +50,8 @@ struct LimitedFace {
 /// Divergence of a face field in all owned cells: out[c] = sum over axes (alpha f[c + s] - alpha f[c]) / (theta h).
 void divergence(const Grid& grid, const FaceField& faces, Field& out);
 
-/// Adds -(U.grad)U of a velocity to its acceleration on the faces of one axis within a box, of first order. Ghosts of
-/// the velocity must be filled.
+/// Adds -(U.grad)U, first order, to the acceleration on the faces of one axis within a box. Ghosts of the velocity must
+/// be filled.
 inline void subtract_convection(const Grid& grid, const FaceField& velocity, int axis, const Box& box, Field& rate) {
   const double* u = velocity[std::size_t(axis)].data();
   double* to = rate.data();
@@ -76,10 +76,10 @@ inline void subtract_convection(const Grid& grid, const FaceField& velocity, int
   }
 }
 
-/// Adds -[div(F U) - U div F] of the velocity U on the faces of one axis within a box, where F, on the faces of all
-/// axes, carries it: between two cells of U, each half of two cells of the grid, F is the mean of what passes both, so
-/// that the sum over cells of U times the mean of dphi/dt = -div F, and of this, telescopes. Face: UpwindFace or
-/// LimitedFace. Ghosts of U must be filled, and those of F where other cells own them.
+/// Adds -[div(F U) - U div F] for the velocity U on the faces of one axis within a box; F, on the faces of all axes,
+/// transports it. A cell of U consists of halves of two grid cells, and the F between two cells of U is the mean of
+/// their fluxes. The sum over cells of U times the mean of dphi/dt = -div F, plus this term, then telescopes. Face:
+/// UpwindFace or LimitedFace. Ghosts of U must be filled, and ghosts of F that other cells own.
 template <class Face, class Metric>
 void subtract_carried(const Metric& metric, const Grid& grid, const FaceField& flux, const Field& velocity, int axis,
                       const Box& box, Field& rate) {

@@ -1,5 +1,5 @@
-// Random numbers that belong to their place in a sequence, not to the order in which they are drawn: the same seed
-// gives the same numbers on any number of ranks.
+// Random numbers that depend on their place in a sequence, not on the order of the draws: the same seed gives the same
+// numbers on any number of ranks.
 #pragma once
 
 #include <cmath>
@@ -21,7 +21,7 @@ namespace polybed::core {
   return double(mixed_bits(mixed_bits(mixed_bits(seed) ^ sequence) + index) >> 11) * 0x1p-53;
 }
 
-/// Likewise of the normal distribution of mean 0 and deviation 1 (Box and Muller, 1958).
+/// Likewise from the normal distribution with mean 0 and deviation 1 (Box and Muller, 1958).
 [[nodiscard]] inline double normal(std::uint64_t seed, std::uint64_t sequence, std::uint64_t index) {
   const double radius = std::sqrt(-2 * std::log(1 - uniform(seed, sequence, 2 * index)));
   return radius * std::cos(2 * std::numbers::pi * uniform(seed, sequence, 2 * index + 1));

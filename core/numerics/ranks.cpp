@@ -108,7 +108,7 @@ void take_from_first(const Ranks* ranks, std::span<double> values) {
 
 namespace {
 
-/// How work ended, in a form that another rank can be told.
+/// The outcome of work, in a form that can be sent to another rank.
 struct Ending {
   enum Outcome : int { fine, file, numerics, wrong_case, memory, stopped };
   int outcome = fine;
@@ -132,7 +132,7 @@ Ending ending_of(const std::function<void()>& work) {
   return {};
 }
 
-/// Throws on every rank what one has met.
+/// Throws the error of one rank on every rank.
 void share(const Ranks& ranks, int from, Ending ending) {
   check_mpi(MPI_Bcast(&ending.outcome, 1, MPI_INT, from, communicator(&ranks)), "MPI_Bcast");
   if (ending.outcome == Ending::fine) return;

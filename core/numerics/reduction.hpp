@@ -1,5 +1,5 @@
-// Numbers of each rank that are put together in one go, however many parts of the program have some: ranks wait for
-// each other once, not once for each number.
+// Combines numbers from several parts of the program over the ranks in one go: ranks wait for each other once, not once
+// for each number.
 #pragma once
 
 #include <cstdint>
@@ -10,16 +10,15 @@ namespace polybed::core {
 
 class Ranks;
 
-/// Whoever has numbers names their places, over() leaves there what all ranks have together. The places stay until
-/// then, and every rank names the same ones in the same order.
+/// Parts of the program register the addresses of their numbers, and over() replaces the numbers by the result over all
+/// ranks. The addresses stay valid until then, and every rank registers the same ones in the same order.
 class Reduction {
  public:
   void sum(std::span<double> values) { sums_.push_back(values); }
   void sum(std::span<std::int64_t> values) { counts_.push_back(values); }
   void greatest(double& value) { greatest_.emplace_back(&value, 1); }
 
-  /// Collective: one call for the sums, one for sums of whole numbers and one for the greatest values, if there are
-  /// any.
+  /// Collective: at most one call each for sums, sums of integers and greatest values.
   void over(const Ranks* ranks) const;
 
  private:

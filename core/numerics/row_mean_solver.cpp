@@ -12,17 +12,17 @@ namespace polybed::core {
 
 namespace {
 
-/// Beyond, the products with the waves cost more than multigrid.
+/// Above this the products with the waves cost more than multigrid.
 constexpr int most_across = 64;
 
-/// Of the greatest and the least coefficient along a row. Iterations go with the root of this; beyond, multigrid is
-/// cheaper.
+/// Limit on the ratio of the greatest to the least coefficient along a row. The iterations grow with its root; above it
+/// multigrid is cheaper.
 constexpr double most_contrast = 2.5;
 
 constexpr int most_row_iterations = 20;
 
-/// Sum of products in four interleaved partial sums along each row: the order of additions is fixed, whatever the width
-/// of vectors.
+/// Sum of products in four interleaved partial sums along each row: the order of additions is the same for every vector
+/// width.
 void add_products(const double* a, const double* b, Index n, double* part) {
   Index i = 0;
   for (; i + 4 <= n; i += 4)
@@ -38,7 +38,7 @@ double dot(const Grid& grid, const Field& a, const Field& b) {
   return (part[0] + part[1]) + (part[2] + part[3]);
 }
 
-/// y += factor x, or with the factor before y: x + factor y.
+/// y += factor x or, with the factor first, x + factor y.
 void add(const Grid& grid, double factor, const Field& x, Field& y) {
   for_each_row(grid, [&](Index begin, Index end) {
     for (Index c = begin; c < end; ++c) y[std::size_t(c)] += factor * x[std::size_t(c)];
@@ -93,7 +93,7 @@ RowMeanSolver::RowMeanSolver(const Grid& grid)
   factor_.resize(std::size_t(values_.size()));
 }
 
-/// Cosines between walls, cosines and sines where sides are joined.
+/// Cosines between walls; cosines and sines between joined sides.
 RowMeanSolver::Modes RowMeanSolver::modes_of(const Grid& grid, int axis) {
   const int n = grid.cells[std::size_t(axis)];
   Modes modes{Matrix(n, n), std::vector<double>(std::size_t(n))};
@@ -106,14 +106,14 @@ RowMeanSolver::Modes RowMeanSolver::modes_of(const Grid& grid, int axis) {
     for (int i = 0; i < n; ++i)
       modes.waves(i, m) =
           std::sqrt((alone ? 1.0 : 2.0) / n) * (sine ? std::sin(angle * (i + 0.5)) : std::cos(angle * (i + 0.5)));
-    // Of an even number of cells joined, the shortest wave has its zeros in the centres as a cosine.
+    // With an even number of joined cells the shortest wave, as a cosine, is zero at the centres.
     if (alone && waves > 0)
       for (int i = 0; i < n; ++i) modes.waves(i, m) = (i % 2 == 0 ? 1 : -1) / std::sqrt(double(n));
   }
   return modes;
 }
 
-/// Of sum alpha (p - p_next) = rate theta p, alpha and theta of the rings.
+/// Solves sum alpha (p - p_next) = rate theta p with the rings' alpha and theta.
 RowMeanSolver::Modes RowMeanSolver::modes_of_rings(const Grid& grid) {
   const CrossSection& rings = grid.metric->layers.front();
   const int n = rings.width;
@@ -129,10 +129,10 @@ RowMeanSolver::Modes RowMeanSolver::modes_of_rings(const Grid& grid) {
   return {modes.eigenvectors(), {rate.begin(), rate.end()}};
 }
 
-/// Means over the cells of each height; false if coefficients differ too much along one.
+/// Computes means over the cells at each height; false if the coefficients at one differ too much.
 bool RowMeanSolver::average(const FaceSpans& coefficient, std::span<const double> shift) {
   const auto n = grid_.cells;
-  bool fine = !is_tapered(grid_);  // where the wall leans no row is even
+  bool fine = !is_tapered(grid_);  // no row is even at a sloping wall
   if (!fine) return false;
   double faces = 0;
   const auto mean = [&](int axis, int row) {
@@ -160,7 +160,7 @@ bool RowMeanSolver::average(const FaceSpans& coefficient, std::span<const double
     const auto r = std::size_t(row);
     across_[0][r] = n[0] > 1 ? mean(0, row) : 0;
     across_[1][r] = n[2] > 1 ? mean(2, row) : 0;
-    if (section_)  // one mean for both ways
+    if (section_)  // one mean for both directions
       across_[0][r] = 0.5 * (across_[0][r] * grid_.spacing[0] * grid_.spacing[0] +
                              across_[1][r] * grid_.spacing[2] * grid_.spacing[2]);
     diagonal_[r] = 0;
@@ -173,7 +173,7 @@ bool RowMeanSolver::average(const FaceSpans& coefficient, std::span<const double
   return fine;
 }
 
-/// Gauss's elimination up the column, for each mode: pivot = d - up^2/(pivot below).
+/// Gaussian elimination up the column, for each mode: pivot = d - up^2/(pivot below).
 void RowMeanSolver::factorise() {
   const int nx = int(x_.rate.size()), ny = grid_.cells[1], nz = int(z_.rate.size());
   for (int k = 0; k < nz; ++k)
@@ -207,7 +207,7 @@ void RowMeanSolver::sweep() {
   }
 }
 
-/// z = the row-mean equation's solution for r: into waves, up and down the column, and back.
+/// z = solution of the row-mean equation for r: transforms to waves, solves up and down the column, transforms back.
 void RowMeanSolver::precondition(const Field& r, Field& z) {
   if (section_) {
     section_->to_modes(r, turned_, values_);
@@ -255,8 +255,8 @@ std::optional<int> RowMeanSolver::solve(const FaceSpans& coefficient, std::span<
                                         const Field& source, Field& p, double tolerance) {
   if (!average(coefficient, shift)) return std::nullopt;
   factorise();
-  // An iteration gains a factor of 20 and more, so that stopping just within the tolerance would save one in some
-  // solves and leave errors that are as large as it; multigrid ends far within.
+  // An iteration gains a factor of 20 or more. Stopping just within the tolerance would save one iteration in some
+  // solves but leave errors as large as the tolerance; multigrid ends far below it.
   constexpr double share = 0.05;
   const double enough = share * tolerance * std::sqrt(dot(grid_, source, source));
   std::fill(direction_.begin(), direction_.end(), 0.0);  // ghosts beyond the ends stay 0
@@ -266,8 +266,8 @@ std::optional<int> RowMeanSolver::solve(const FaceSpans& coefficient, std::span<
   add(grid_, -1, image_, residual_);
   double weight = 0;
   int iterations = 0;
-  // At least one iteration, although the guess may be good enough: a pressure that stands still while all else moves is
-  // an error that does not average out, and a bed at rest would feel it.
+  // At least one iteration, even from a good guess: a pressure that stays constant while all else moves is an error
+  // that does not average out, and a bed at rest would respond to it.
   const auto goes_on = [&] {
     const double left = std::sqrt(dot(grid_, residual_, residual_)), round_off = 1e-14 * enough / (share * tolerance);
     return left > (iterations > 0 ? enough : round_off) && iterations < most_row_iterations;

@@ -14,13 +14,13 @@ namespace polybed::core {
 
 namespace {
 
-/// Where the next step must not go beyond.
+/// The time that the next step must not pass.
 struct Event {
   double time;      ///< s
-  bool checkpoint;  ///< the run can be taken up again there
+  bool checkpoint;  ///< the run can be resumed there
 };
 
-/// The next event after a time. Breakpoints and checkpoints that are the same event as another are met together, at the
+/// The next event after a time. Breakpoints and checkpoints that are the same event are met together, at the
 /// breakpoint's own time or, without one, at the end's.
 Event next_event(const Stops& stops, double now) {
   const double checkpoint = next_multiple(stops.checkpoint_every, now);
@@ -32,7 +32,7 @@ Event next_event(const Stops& stops, double now) {
   return {time, same_time(time, checkpoint) || same_time(time, stops.until)};
 }
 
-/// The observers of a run, and when each has last acted.
+/// The observers of a run, and the time of each one's last action.
 class Outputs {
  public:
   Outputs(Simulation& simulation, const std::vector<Observer>& observers, const std::function<bool()>& stop_wanted)
@@ -45,7 +45,7 @@ class Outputs {
     for (std::size_t n = 0; n < observers_.size(); ++n) act(n, t);
   }
 
-  /// All that is due in a step, until the user wants to stop. \param last  the run ends with it
+  /// Runs all observers due in a step, until the user requests a stop. \param last  the run ends with it
   void of_step(double before, double now, bool last) {
     bool first = true;
     for (std::size_t n = 0; n < observers_.size(); ++n) {
@@ -66,7 +66,7 @@ class Outputs {
     }
   }
 
-  /// From when on the outputs of the last step are missing, s; empty: none is.
+  /// Time from which outputs of the last step are missing, s; empty: none is missing.
   [[nodiscard]] std::optional<double> left_out() const { return left_out_; }
 
  private:

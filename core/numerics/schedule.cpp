@@ -11,7 +11,7 @@ namespace polybed::core {
 
 bool same_time(double a, double b) {
   constexpr double relative = 1e-12;
-  return a == b || std::abs(a - b) < relative * std::max(std::abs(a), std::abs(b));  // no number is infinity's
+  return a == b || std::abs(a - b) < relative * std::max(std::abs(a), std::abs(b));  // no number equals infinity
 }
 
 bool is_later(double a, double b) { return a > b && !same_time(a, b); }
@@ -21,7 +21,7 @@ double next_multiple(double every, double time) {
   double count = std::floor(time / every);
   while (!is_later(count * every, time)) {
     const double next = count + 1;
-    if (next == count) return std::numeric_limits<double>::infinity();  // too many to be counted
+    if (next == count) return std::numeric_limits<double>::infinity();  // too many to count
     count = next;
   }
   return count * every;

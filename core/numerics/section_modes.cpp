@@ -13,15 +13,15 @@ namespace {
 
 constexpr int most_of_a_quarter = 400;
 
-/// Open areas of all faces as the equation takes them.
+/// Open areas of all faces for the equation.
 FaceField open_faces(const Grid& column) {
   FaceField open = make_face_field(column, 1);
   weigh_faces(column, open);
   return open;
 }
 
-/// Rows of n numbers times an n by n matrix: out = in A. Four rows of A at a time, for eight rows of numbers, which
-/// stay at hand. Eigen's product takes ten times the instructions at the width that all processors have.
+/// out = in A: rows of n numbers times an n by n matrix. Takes four rows of A at a time, for eight rows of numbers,
+/// which stay in registers. Eigen's product takes ten times the instructions at the width of all processors.
 void multiply_rows(const double* in, const double* matrix, Index n, Index rows, Index pitch, double* out) {
   constexpr Index block = 8;
   for (Index first = 0; first < rows; first += block) {
@@ -48,7 +48,7 @@ void multiply_rows(const double* in, const double* matrix, Index n, Index rows, 
   }
 }
 
-/// Share that an even or odd mode, of length 1 over a pair of mirror images, has in a cell.
+/// Value of an even or odd mode, of length 1 over a pair of mirror images, in a cell.
 double share(bool odd, int i, int cells) {
   const int mirror = cells - 1 - i;
   if (i == mirror) return odd ? 0 : 1;
@@ -103,7 +103,7 @@ SectionModes::SectionModes(const Grid& column)
         if (i > 0) add_face(wx * open[0][c], i - 1, k, i, k);
         if (k > 0) add_face(wz * open[2][c], i, k - 1, i, k);
       }
-    // Nothing odd is in the middle: its place stands alone, and has no part in a field.
+    // Odd modes vanish in the middle: their entry there is isolated and not part of a field.
     const Eigen::VectorXd scale = (volume.array() > 0).select(volume, 1).cwiseInverse().cwiseSqrt();
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> found(scale.asDiagonal() * differences * scale.asDiagonal());
     modes_[kind] = scale.asDiagonal() * found.eigenvectors();

@@ -1,6 +1,6 @@
-// The modes of a cross-section that a round wall cuts out of equal cells: what waves are to a row of cells. A section
-// is its own mirror image left and right, front and back, so that modes are even or odd each way and a quarter of the
-// cells makes each of the four kinds.
+// The modes of a cross-section that a round wall cuts out of equal cells, in place of the waves of a row of cells. A
+// section is its own mirror image left and right, front and back. Modes are therefore even or odd each way, and each of
+// the four kinds needs a quarter of the cells.
 #pragma once
 
 #include <Eigen/Dense>
@@ -15,22 +15,22 @@ class SectionModes {
  public:
   using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-  /// Whether a whole column is cut alike at every height, with at most 400 cells in a quarter of a layer: setting up
-  /// costs the third power of these.
+  /// Whether a whole column is cut alike at every height, with at most 400 cells in a quarter of a layer: the cost of
+  /// the setup grows with their third power.
   [[nodiscard]] static bool serves(const Grid& column);
   explicit SectionModes(const Grid& column);
 
-  /// Of -sum over sides of alpha (p_next - p)/h^2 = rate theta p, 1/m2; one for each mode.
+  /// Eigenvalues in -sum over sides of alpha (p_next - p)/h^2 = rate theta p, 1/m2; one for each mode.
   [[nodiscard]] const std::vector<double>& rates() const { return rates_; }
-  /// A row of modes for each height, from a field on cells, and back. \param work  of the same size
+  /// Transforms a field on cells to a row of modes for each height, and back. \param work  of the same size
   void to_modes(const Field& cells, Matrix& work, Matrix& modes) const;
   void to_cells(const Matrix& modes, Matrix& work, Field& cells) const;
 
  private:
   Grid grid_;
-  Index half_x_, half_z_, quarter_;  ///< cells, the middle ones among them
-  std::array<Matrix, 4> modes_;      ///< even or odd along x, then along z; a column each
-  std::array<Matrix, 4> turned_;     ///< and a row each
+  Index half_x_, half_z_, quarter_;  ///< cells, including the middle ones
+  std::array<Matrix, 4> modes_;      ///< even or odd along x, then along z; one per column
+  std::array<Matrix, 4> turned_;     ///< and one per row
   std::vector<double> rates_;
 };
 

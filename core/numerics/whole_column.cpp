@@ -15,7 +15,7 @@ Box owned(const Grid& block, const WholeColumn::Part& part) {
 
 int entries_of(const Box& box) { return (box.hi[0] - box.lo[0]) * (box.hi[1] - box.lo[1]) * (box.hi[2] - box.lo[2]); }
 
-/// A box of a block in the column's own counting.
+/// A box of a block, in indices of the whole column.
 Box in_column(const Grid& block, Box box) {
   for (std::size_t a = 0; a < 3; ++a) {
     box.lo[a] += block.before[a];

@@ -26,21 +26,21 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A file driver of HDF5 for a file that is there, opened to be changed. It remembers the first system call that failed
-/// and lets HDF5 go on: HDF5 1.10 leaves a file half closed when a call fails while it closes it, and crashes at the
-/// end of the program.
+/// A file driver of HDF5 for changing an existing file. It remembers the first failed system call and lets HDF5
+/// continue: HDF5 1.10 leaves a file half closed when a call fails during closing, and crashes at the end of the
+/// program.
 class Disk {
  public:
   /// Throws FileError.
   explicit Disk(fs::path path) : path_(std::move(path)), file_(::open(path_.c_str(), O_RDWR | O_NOFOLLOW | O_CLOEXEC)) {
     if (file_.number() < 0) cannot("write", path_, errno);
   }
-  /// Lets a list of properties open this file under any name. The file must outlive what is opened. Throws FileError.
+  /// Makes a property list open this file under any name. Objects opened in it must not outlive it. Throws FileError.
   void use_in(hid_t access_list) {
     H5FD_class_t calls{};
     calls.name = "polybed";
     calls.maxaddr = haddr_t(INT64_MAX);
-    calls.fc_degree = H5F_CLOSE_STRONG;  // what is open in a file that failed is closed with it
+    calls.fc_degree = H5F_CLOSE_STRONG;  // objects open in a failed file are closed with it
     calls.fapl_size = sizeof(Disk*);
     calls.open = Driver::open;
     calls.close = Driver::close;
@@ -53,11 +53,11 @@ class Disk {
     const Disk* self = this;
     checked(path_.string(), [&] { return H5Pset_driver(access_list, driver, &self); });
   }
-  /// Throws the FileError of the first call of the system that failed.
+  /// Throws the FileError of the first failed system call.
   void check() const {
     if (reason_ != 0) cannot("write", path_, reason_);
   }
-  /// After HDF5 has closed it: cuts what was claimed and not used. Throws as check().
+  /// Called after HDF5 has closed it: cuts off claimed but unused room. Throws as check().
   void finish() {
     if (reason_ == 0 && ::ftruncate(file_.number(), off_t(size_)) != 0) reason_ = errno;
     if (const int reason = file_.close(); reason_ == 0) reason_ = reason;
@@ -65,12 +65,12 @@ class Disk {
   }
 
  private:
-  /// What HDF5 calls, and what it keeps of an open file.
+  /// HDF5's callbacks, and its data for an open file.
   struct Driver {
-    H5FD_t of_hdf5;  // HDF5 takes the address of the whole for that of its part
+    H5FD_t of_hdf5;  // HDF5 uses the address of the whole as that of its first member
     Disk* disk;
-    haddr_t size;  ///< that HDF5 has given itself
-    haddr_t end;   ///< of the file
+    haddr_t size;  ///< allocated by HDF5
+    haddr_t end;   ///< end of the file
 
     static Driver& of(H5FD_t* file) { return *reinterpret_cast<Driver*>(file); }
     static const Driver& of(const H5FD_t* file) { return *reinterpret_cast<const Driver*>(file); }
@@ -100,7 +100,7 @@ class Disk {
         const ssize_t count = ::pread(of(file).disk->file_.number(), bytes, size, off_t(at));
         if (count < 0 && errno == EINTR) continue;
         if (count < 0) return -1;
-        if (count == 0) {  // behind the end there are zeros
+        if (count == 0) {  // zeros beyond the end of the file
           std::memset(bytes, 0, size);
           return 0;
         }
@@ -128,7 +128,7 @@ class Disk {
   int reason_ = 0;               ///< errno of the first call that failed
 };
 
-/// Room for an index of chunks and for what packing can add to numbers that do not pack.
+/// Room for an index of chunks, and for incompressible numbers that grow when packed.
 constexpr std::size_t spare_bytes = 1 << 16;
 
 std::size_t bytes_of(const BlockData& data) {
@@ -136,12 +136,12 @@ std::size_t bytes_of(const BlockData& data) {
   return numbers + numbers / 64 + spare_bytes;
 }
 
-/// The file as the ranks find it: everything but the blocks' numbers, and room for these. \param packing  of each
+/// Builds the file without the blocks' numbers but with room for them. \param packing  of each
 void build(const fs::path& path, OutputFile& file, std::span<const BlockData> data, std::span<const Packing> packing) {
   std::size_t room = 0;
   for (std::size_t n = 0; n < data.size(); ++n) {
     const BlockData& d = data[n];
-    if (file.has(d.name)) continue;  // another piece of it
+    if (file.has(d.name)) continue;  // another piece of it is there
     file.make(d.name, d.slab.shape, packing[n], d.chunk.empty() ? d.slab.shape : d.chunk);
     room += bytes_of(d);
   }
@@ -156,7 +156,7 @@ std::vector<double> values_of(const BlockData& data) {
   return values;
 }
 
-/// What becomes of Packing::if_small: the first rank's first piece of a dataset is the sample. Collective.
+/// Resolves Packing::if_small: the first rank's first piece of a dataset is the sample. Collective.
 std::vector<Packing> settled(std::span<const BlockData> data, const Ranks* ranks) {
   std::vector<Packing> packing;
   for (std::size_t n = 0; n < data.size(); ++n) {
@@ -201,7 +201,7 @@ void write_all(const fs::path& path, std::span<const BlockData> data, const Rank
   std::optional<Handle> file;
   on_all(ranks, [&] { file.emplace(name, [&] { return H5Fopen(name.c_str(), H5F_ACC_RDWR, access); }); });
   for (const BlockData& d : data) {
-    if (product(d.slab.shape) == 0) continue;  // it has no place in the file, which the ranks' common call asks for
+    if (product(d.slab.shape) == 0) continue;  // it has no place in the file, which the ranks' common call needs
     std::vector<double> values;
     on_all(ranks, [&] { values = values_of(d); });
     on_all(ranks, [&] { write_one(*file, transfer, d, values); });
@@ -224,7 +224,7 @@ void write_blocks(const fs::path& path, OutputFile* file, std::span<const BlockD
   try {
     write_all(path, data, ranks);
   } catch (...) {
-    std::error_code ignored;  // the error that is under way says more
+    std::error_code ignored;  // the error being thrown says more
     if (is_first(ranks)) fs::remove(path, ignored);
     throw;
   }

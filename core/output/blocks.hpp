@@ -1,9 +1,9 @@
-// Files that are written block by block, by one rank or by several together: each its block of every dataset, none with
+// Writes files block by block, from one rank or several together. Each writes its block of every dataset; none needs
 // memory for the whole.
 //
-// The first rank builds the file without these numbers, in memory, and claims room for them on the disk; then all open
+// The first rank builds the file without these numbers, in memory, and claims room for them on the disk. Then all open
 // it through MPI-IO and write their blocks with collective calls. Room is claimed because HDF5's collective calls wait
-// for ever for a rank that has left one with an error, and a full disk is the error to expect.
+// for ever for a rank that left with an error, and a full disk is the most likely error.
 #pragma once
 
 #include <filesystem>
@@ -19,25 +19,25 @@ namespace polybed::core {
 struct Grid;
 class Ranks;
 
-/// A part of a dataset, which this rank writes. A dataset that is written in pieces has an entry for each of them.
+/// A part of a dataset, which this rank writes. A dataset written in pieces has one entry per piece.
 struct BlockData {
   std::string name;
   Slab slab;
   Packing packing = Packing::plain;
-  std::function<std::vector<double>()> values;  ///< of the part, in C order; asked for when it is this dataset's turn
+  std::function<std::vector<double>()> values;  ///< of the part, in C order; called when it is this dataset's turn
   std::vector<std::size_t> chunk;               ///< greatest piece that is packed as one; empty: the whole
 };
 
-/// A column on one rank: the datasets are written into the file in memory.
+/// For a column on one rank: writes the datasets into the file in memory.
 void write_blocks(OutputFile& file, std::span<const BlockData> data);
 
-/// `path` is written and closed, without memory for its content. All ranks give the same names and shapes; the file is
-/// the first rank's alone. Collective; throws FileError on all ranks, and then `path` is removed.
-/// \param ranks  null: one
+/// Writes and closes `path`, without memory for its content. All ranks pass the same names and shapes; only the first
+/// rank owns the file. Collective; throws FileError on all ranks and removes `path` on failure.
+/// \param ranks  null: one rank
 void write_blocks(const std::filesystem::path& path, OutputFile* file, std::span<const BlockData> data,
                   const Ranks* ranks);
 
-/// Extents of a box of the grid's blocks, slowest axis first: at most this many cells along each axis are in a block.
+/// Greatest number of cells per block along each axis, slowest axis first.
 [[nodiscard]] std::vector<std::size_t> greatest_block(const Grid& grid);
 
 }  // namespace polybed::core

@@ -30,7 +30,7 @@ constexpr std::size_t seal_size = mark.size() + 16;
 
 using Seal = std::array<std::byte, seal_size>;
 
-/// What stands after a whole HDF5 part of a size and a check sum.
+/// The seal after a complete HDF5 part, from its size and checksum.
 Seal seal_of(std::size_t size, std::uint64_t sum) {
   Seal seal{};
   std::memcpy(seal.data(), mark.data(), mark.size());
@@ -40,14 +40,14 @@ Seal seal_of(std::size_t size, std::uint64_t sum) {
   return seal;
 }
 
-/// The seal that the first bytes of a file need.
+/// The seal for the first bytes of a file.
 Seal seal_of(const fs::path& path, std::size_t size) {
   std::uint64_t sum = 0;
   read_pieces(path, 0, size, [&](auto piece) { sum = crc64(piece, sum); });
   return seal_of(size, sum);
 }
 
-/// Throws FileError if a checkpoint is not whole.
+/// Throws FileError if a checkpoint is incomplete.
 void check_whole(const fs::path& path) {
   const std::size_t size = bytes_of_file(path);
   if (size >= seal_size) {
@@ -74,7 +74,7 @@ void refuse_slash(const std::string& name) {
     throw FileError(fmt::format("'{}' cannot name a part of a checkpoint", name));
 }
 
-/// The arrays that are in no part go as they are written: there may be no memory for all of them twice.
+/// Arrays outside parts are freed as they are written: memory may not suffice for two copies of them.
 OutputFile built(Checkpoint& checkpoint) {
   OutputFile file(kind);
   for (const char* group : {"arrays", "fields", "numbers", "integers", "texts"}) file.make_group(group);
@@ -99,18 +99,18 @@ OutputFile built(Checkpoint& checkpoint) {
   return file;
 }
 
-/// Gives the present checkpoint a second name, so that both names exist all the time; where a file system has
-/// no second names the present one is moved, which leaves only the previous name for a moment.
+/// Gives the present checkpoint a second name, so that both names exist all the time. A file system without second
+/// names moves it instead, which leaves only the previous name for a moment.
 void keep_previous(const fs::path& path) {
   const fs::path previous = previous_checkpoint(path), spare = previous.string() + ".temporary";
   ::unlink(spare.c_str());
   const bool linked = ::link(path.c_str(), spare.c_str()) == 0;
   const fs::path& source = linked ? spare : path;
   if (std::rename(source.c_str(), previous.c_str()) != 0) {
-    if (!linked && errno == ENOENT) return;  // the first
+    if (!linked && errno == ENOENT) return;  // the first checkpoint
     throw FileError(fmt::format("cannot write {}: {}", previous.string(), std::system_category().message(errno)));
   }
-  ::unlink(spare.c_str());  // still there if both names were of one file
+  ::unlink(spare.c_str());  // still there if both names were one file
 }
 
 std::string place_in_file(const std::string& array, const CheckpointPart& part) {
@@ -139,8 +139,8 @@ std::vector<BlockData> block_data(const Checkpoint& checkpoint) {
   return data;
 }
 
-/// Writes a whole checkpoint under a name: in one go from one rank, block by block from several or where not all of it
-/// is in memory.
+/// Writes a complete checkpoint under a name: in one go from one rank, or block by block from several ranks or with
+/// only part of it in memory.
 void write_fresh(const fs::path& fresh, Checkpoint& checkpoint, const Ranks* ranks, std::vector<BlockData> more) {
   const bool in_memory = ranks == nullptr && more.empty();
   std::vector<BlockData> data = block_data(checkpoint);
@@ -220,7 +220,7 @@ double Checkpoint::number(const std::string& name) const { return entry(numbers,
 std::int64_t Checkpoint::integer(const std::string& name) const { return entry(integers, name); }
 
 double Checkpoint::time(const std::string& name) const {
-  constexpr double longest = 1e9;  // s, as of run.until
+  constexpr double longest = 1e9;  // s, the limit of run.until
   const double seconds = number(name);
   if (!(seconds >= 0 && seconds <= longest)) refuse_checkpoint(fmt::format("{} is {:g} s", name, seconds));
   return seconds;

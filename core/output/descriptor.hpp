@@ -1,4 +1,4 @@
-// An open file of the system.
+// An open file descriptor.
 #pragma once
 
 #include <unistd.h>

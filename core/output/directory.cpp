@@ -26,11 +26,11 @@ namespace fs = std::filesystem;
 constexpr std::string_view mark_name = ".polybed";
 constexpr std::string_view mark_text = "polybed writes this directory: it replaces and removes files of its own here\n";
 
-/// Records that say of themselves that they are of this program: directories of versions without marks have one.
+/// Records that name this program: directories from versions without marks contain one.
 constexpr std::array<std::string_view, 6> records{"run.json",       "cost.json",      "comparison.json",
                                                   "inversion.json", "stability.json", "fuzz.json"};
 
-/// What a run leaves, by the names that every writer of it uses.
+/// Result files of a run, by the names that every writer uses.
 constexpr std::array<std::string_view, 14> results{"history.csv",       "steps.csv",
                                                    "profiles.h5",       "fields.h5",
                                                    "fields.xdmf",       "particles.h5",
@@ -42,7 +42,7 @@ constexpr std::array<std::string_view, 2> folders_of_steps{"fields", "particles"
 constexpr std::string_view unfinished = ".temporary";
 
 bool is_file(const fs::path& path) {
-  std::error_code none;  // of what is not there
+  std::error_code none;  // for a file that does not exist
   return fs::is_regular_file(fs::symlink_status(path, none));
 }
 
@@ -50,7 +50,7 @@ bool is_record(const fs::path& path) {
   if (!is_file(path)) return false;
   try {
     return filetype_of(path).starts_with("polybed ");
-  } catch (const FileError&) {  // of somebody else
+  } catch (const FileError&) {  // from another program
     return false;
   }
 }
@@ -60,8 +60,8 @@ bool is_of_program(const fs::path& directory) {
          std::any_of(records.begin(), records.end(), [&](auto name) { return is_record(directory / name); });
 }
 
-/// The name of a file in a directory that is not the program's; empty if there is none. Directories of the program may
-/// lie there: a comparison is written around its runs.
+/// The name of a file in a directory that is not the program's; empty if there is none. Directories of the program can
+/// be there, since a comparison is written around its runs.
 std::string foreign_file(const fs::path& directory) {
   if (is_of_program(directory)) return {};
   std::error_code error;
@@ -73,7 +73,7 @@ std::string foreign_file(const fs::path& directory) {
   return {};
 }
 
-/// Opens the mark, which is made if need be; a mark that is a link, or has a second name, could be any file.
+/// Opens the mark, or creates it. A mark that is a link or has a second name could be any file.
 int opened_mark(const fs::path& directory) {
   make_directories(directory);
   if (const std::string name = foreign_file(directory); !name.empty())
@@ -95,7 +95,7 @@ std::string host() {
   return ::gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "an unknown host";
 }
 
-/// What the process that has the lock has written about itself.
+/// The lock owner's description of itself.
 std::string holder(int mark) {
   std::array<char, 512> text{};
   const ssize_t count = ::pread(mark, text.data(), text.size(), 0);
@@ -116,7 +116,7 @@ void lock(int mark, const fs::path& directory) {
     cannot("write", directory / mark_name, errno);
 }
 
-/// The directories on the way to a path that are not there yet, the deepest first.
+/// The missing directories on the way to a path, the deepest first.
 std::vector<fs::path> missing(fs::path path) {
   std::vector<fs::path> found;
   std::error_code none;
@@ -143,7 +143,7 @@ bool is_step(std::string_view name) {
 }
 
 void remove_steps(const fs::path& folder) {
-  std::error_code none;  // of what is not there
+  std::error_code none;  // for a file that does not exist
   if (!fs::is_directory(fs::symlink_status(folder, none))) return;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder))
     if (is_step(entry.path().filename().string())) remove_file(entry.path());
@@ -159,7 +159,7 @@ OutputDirectory::~OutputDirectory() {
   std::error_code none;
   if (made_.empty() || std::distance(fs::directory_iterator(path_, none), {}) > 1) return;
   ::unlink((path_ / mark_name).c_str());
-  for (const fs::path& made : made_) ::rmdir(made.c_str());  // one with something in it stays
+  for (const fs::path& made : made_) ::rmdir(made.c_str());  // a directory with content stays
 }
 
 void mark_directory(const fs::path& path) {

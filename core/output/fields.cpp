@@ -27,7 +27,7 @@ std::vector<double> face_positions(const Grid& grid, int axis) {
   return faces;
 }
 
-/// A cell field of the column in the file, with as many components if there are any, and the block's place in it.
+/// A cell field of the column in the file, with its components if there are any, and the place of the block in it.
 Slab cell_slab(const Grid& grid, int components) {
   Slab slab;
   for (int axis = grid.dimensions - 1; axis >= 0; --axis) {
@@ -59,7 +59,7 @@ void check_finite(const Grid& grid, const FieldName& field, const FieldValues& v
         }
 }
 
-/// The owned cells of padded components, component fastest; `components` of them, those missing are zero.
+/// The owned cells of padded components, component fastest; missing components up to `components` are zero.
 std::vector<double> packed(const Grid& grid, const FieldValues& values, int components) {
   std::vector<double> out;
   out.reserve(grid.cell_count() * std::size_t(components));
@@ -102,8 +102,8 @@ std::vector<BlockData> step_data(const Grid& grid, std::span<const FieldName> na
   return data;
 }
 
-/// Open volumes of cells over a whole one's where a wall closes some, which then contain no fluid although their
-/// voidage is 1; else empty.
+/// Open volumes of cells over a whole cell's where a wall closes some: these contain no fluid although their voidage is
+/// 1. Else empty.
 std::vector<double> open_volumes(const Grid& grid) {
   if (!grid.metric) return {};
   std::vector<double> open = packed(grid, {grid.metric->volume}, 1);
@@ -127,7 +127,7 @@ bool has_grid(const Grid& grid, const OutputFile& file) {
   return open.empty() || file.read("grid/open").values == open;
 }
 
-/// Numbers per axis, slowest first: cells and `more` of each.
+/// Numbers of cells per axis, slowest first, each plus `more`.
 std::string dimensions(const Grid& grid, int more) {
   std::string text;
   for (int axis = grid.dimensions - 1; axis >= 0; --axis)
@@ -152,7 +152,7 @@ std::string geometry(const Grid& grid) {
   return text + "        </Geometry>\n";
 }
 
-/// ParaView shows vectors of three components only; a 2-D run stores a copy made for it.
+/// ParaView shows only vectors with three components; a 2-D run stores a padded copy for it.
 std::string attribute(const Grid& grid, const FieldName& field, const std::string& file, const char* group = "step") {
   const std::string shape = dimensions(grid, 0);
   const bool copied = field.vector && grid.dimensions == 2;
@@ -164,7 +164,7 @@ std::string attribute(const Grid& grid, const FieldName& field, const std::strin
       field.name, field.vector ? "Vector" : "Scalar", item);
 }
 
-/// XDMF 3.0, with which ParaView shows the fields: a temporal collection of rectilinear grids, one per stored step.
+/// XDMF 3.0, for ParaView: a temporal collection of rectilinear grids, one per stored step.
 std::string fields_xdmf(const Grid& grid, std::span<const FieldName> names, std::span<const double> times) {
   std::string text =
       "<?xml version=\"1.0\"?>\n<Xdmf Version=\"3.0\">\n  <Domain>\n"

@@ -1,5 +1,5 @@
-// fields.h5 and fields.xdmf: what every cell holds, at each output time. How the files are kept whole:
-// core/output/steps.hpp.
+// fields.h5 and fields.xdmf: the values of every cell at each output time. core/output/steps.hpp describes how the
+// files stay complete.
 #pragma once
 
 #include <filesystem>
@@ -24,21 +24,21 @@ struct FieldName {
 /// The values of one field: a padded field per component, as core/numerics/grid.hpp lays it out.
 using FieldValues = std::vector<std::span<const double>>;
 
-/// Means of a face field over the two faces of each owned cell: a velocity at cell centres, padded, ghosts
-/// zero. Across joined sides the first face stands for the last one; a block's last face must have been fetched.
+/// Means of a face field over the two faces of each owned cell: a velocity at cell centres, padded, ghosts zero. At
+/// joined sides the first face replaces the last one; a block's last face must have been fetched.
 [[nodiscard]] FaceField cell_means(const Grid& grid, const FaceField& faces);
 
-/// On a grid that is a block of a column every rank has one and every function is collective: each writes its block.
+/// Collective if the grid is a block of a column: every rank has a writer, and each writes its block.
 class FieldWriter {
  public:
-  /// Starts fields.h5 in a run directory that exists, or goes on with it.
-  /// \param resume_time  empty: what an earlier run left is removed. Else s: steps later than that are
-  /// removed. Throws FileError, also if the file that it goes on with has another grid.
+  /// Starts fields.h5 in an existing run directory, or continues it.
+  /// \param resume_time  empty: removes what an earlier run left. Else s: removes later steps. Throws FileError, also
+  /// if the file to continue has another grid.
   FieldWriter(const std::filesystem::path& run_directory, const Grid& grid, std::vector<FieldName> names,
               std::optional<double> resume_time = std::nullopt);
 
-  /// Stores all fields at a time, in the order of the names; complete on the disk when it returns.
-  /// Throws NumericsError, and writes nothing, if a value is not finite: field and cell of the column are in the text.
+  /// Stores all fields at a time, in the order of the names; complete on the disk when it returns. Throws NumericsError
+  /// with field and cell, and writes nothing, if a value is not finite.
   void write_step(double time_s, std::span<const FieldValues> values);
 
   [[nodiscard]] const std::vector<double>& times() const { return times_; }
@@ -49,7 +49,7 @@ class FieldWriter {
   std::filesystem::path directory_;
   Grid grid_;
   std::vector<FieldName> names_;
-  std::optional<StepWriter> steps_;  ///< the first rank's
+  std::optional<StepWriter> steps_;  ///< on the first rank
   std::vector<double> times_;
 };
 

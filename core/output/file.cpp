@@ -18,7 +18,7 @@ using namespace hdf5;
 
 namespace {
 
-/// HDF5 crashes where it lacks memory for a file, or at its own beginning: throws std::bad_alloc in its place.
+/// HDF5 crashes if it lacks memory for a file or when it starts: throws std::bad_alloc instead.
 void require_room_for_a_file() {
   constexpr std::size_t room = 8 << 20;
   void* address = ::mmap(nullptr, room, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
@@ -35,7 +35,7 @@ bool is_packed(Packing packing, std::span<const Number> values) {
 
 struct OutputFile::State {
   hid_t file = -1;
-  std::string path;  ///< of a file that was read, for messages
+  std::string path;  ///< path of a file that was read, for messages
 
   State() = default;
   State(const State&) = delete;
@@ -44,7 +44,7 @@ struct OutputFile::State {
     if (file >= 0) H5Idec_ref(file);
   }
 
-  /// Files in memory are told apart by name: each takes that of its own address. `image`: what to begin with.
+  /// Files in memory are distinguished by name: each uses its own address. `image`: the initial content.
   void open(std::span<const std::byte> image) {
     require_room_for_a_file();
     constexpr std::size_t growth = 1 << 20;
@@ -65,7 +65,7 @@ struct OutputFile::State {
     return path.empty() ? name : fmt::format("{} of {}", name, path);
   }
   [[nodiscard]] bool has(const std::string& name) const { return exists(file, name, path); }
-  /// The name of an object, which need not be there yet, of this very file; throws FileError for one elsewhere.
+  /// The name of an object in this file, existing or not; throws FileError for one in another file.
   [[nodiscard]] const char* own(const std::string& name) const {
     if (name.front() != '/' && has(name)) require_own_link(file, name, path);
     return name.c_str();
@@ -82,7 +82,7 @@ struct OutputFile::State {
     const Handle links = making_groups();
     return Handle(name, [&] { return H5Dcreate2(file, own(name), type, space, links, properties, H5P_DEFAULT); });
   }
-  /// A whole dataset: `stored` is the type in the file, `given` that of the values.
+  /// Writes a whole dataset: `stored` is the type in the file, `given` the type of the values.
   template <class Number>
   void write_data(const std::string& name, const std::vector<std::size_t>& shape, std::span<const Number> values,
                   Packing packing, hid_t stored, hid_t given) const {
@@ -107,7 +107,7 @@ namespace {
 
 hid_t stored_type(Packing packing) { return packing == Packing::small_single ? H5T_IEEE_F32LE : H5T_IEEE_F64LE; }
 
-/// Says which file it is that HDF5 cannot read.
+/// Adds the file name to an error of HDF5's.
 void readable(const std::filesystem::path& path, const std::function<void()>& reading) {
   try {
     reading();
@@ -373,7 +373,7 @@ std::vector<std::string> OutputFile::texts_attribute(const std::string& object, 
 std::span<const std::byte> OutputFile::view() const {
   checked("the file", [&] { return H5Fflush(state_->file, H5F_SCOPE_GLOBAL); });
   const auto size = checked("the file", [&] { return H5Fget_file_image(state_->file, nullptr, 0); });
-  void* image = nullptr;  // where the driver of files in memory keeps the address
+  void* image = nullptr;  // where the driver for files in memory stores the address
   checked("the file", [&] { return H5Fget_vfd_handle(state_->file, H5P_DEFAULT, &image); });
   return {*static_cast<const std::byte**>(image), std::size_t(size)};
 }

@@ -21,14 +21,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Throws for what has no length of its own, and may have no end.
+/// Throws for anything other than a regular file, as it may never end.
 void require_regular(const std::string& deed, const fs::path& path, const struct stat& status) {
   if (S_ISDIR(status.st_mode)) cannot(deed, path, EISDIR);
   if (!S_ISREG(status.st_mode))
     throw FileError(fmt::format("cannot {} {}: it is no regular file, but a pipe or a device", deed, path.string()));
 }
 
-/// A regular file that is there; a pipe is not waited for. \param deed  as in "read"
+/// Opens an existing regular file; does not wait for a pipe. \param deed  as in "read"
 Descriptor opened(const std::string& deed, const fs::path& path, int way) {
   Descriptor file(::open(path.c_str(), way | O_CLOEXEC | O_NONBLOCK));
   struct stat status {};
@@ -37,7 +37,7 @@ Descriptor opened(const std::string& deed, const fs::path& path, int way) {
   return file;
 }
 
-/// 0 or the reason why not all bytes were taken.
+/// 0 or the reason why not all bytes were written.
 int write_all(const Descriptor& file, std::span<const std::byte> bytes) {
   while (!bytes.empty()) {
     const ssize_t written = ::write(file.number(), bytes.data(), bytes.size());
@@ -48,7 +48,7 @@ int write_all(const Descriptor& file, std::span<const std::byte> bytes) {
   return 0;
 }
 
-/// 0 or the reason why not all bytes were taken or, flushed, did not reach the disk.
+/// 0 or the reason why not all bytes were written or, if flushed, did not reach the disk.
 int write_and_close(Descriptor& file, std::span<const std::byte> bytes, std::span<const std::byte> more, Flush flush) {
   for (const auto& part : {bytes, more})
     if (const int reason = write_all(file, part); reason != 0) return reason;
@@ -67,7 +67,7 @@ Descriptor begun(const fs::path& path, std::string_view text) {
   return opened_to_append(path);
 }
 
-/// Gives a file its name; 0 or the reason why not.
+/// Renames a file; 0 or the reason why not.
 int rename_and_flush(const fs::path& written, const fs::path& path, Flush flush) {
   if (std::rename(written.c_str(), path.c_str()) != 0) return errno;
   if (flush == Flush::all) flush_directory(path.has_parent_path() ? path.parent_path() : fs::path("."));
@@ -81,8 +81,8 @@ int claim(const Descriptor& file, std::size_t size) {
   return reason;
 }
 
-/// Replaces the content of a file where it lies, once the disk has room for all of it; false: it has not, or this is no
-/// file of one name.
+/// Replaces the content of a file in place if the disk has room for all of it; false if it has not, or if the file is
+/// not regular with one name.
 bool overwritten(const fs::path& path, std::span<const std::byte> bytes) {
   const Descriptor file(::open(path.c_str(), O_WRONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
   struct stat status {};
@@ -107,7 +107,7 @@ Descriptor new_file(const fs::path& path) {
 
 namespace {
 
-/// 0 or the reason why there is no such file of a size, its blocks claimed.
+/// Creates a file of a size with its blocks claimed; 0 or the reason why not.
 int claimed(const fs::path& path, std::span<const std::byte> bytes, std::size_t size) {
   Descriptor file = new_file(path);
   int reason = claim(file, std::max(size, bytes.size()));
@@ -121,7 +121,7 @@ int claimed(const fs::path& path, std::span<const std::byte> bytes, std::size_t 
 LineFile::LineFile(fs::path path, std::string_view text)
     : path_(std::move(path)), file_(begun(path_, text)), size_(std::int64_t(text.size())) {}
 
-/// Its lines are still there behind the descriptor.
+/// Restores the file's lines, which the open descriptor still has.
 void LineFile::put_back() {
   struct stat ours {
   }, there{};
@@ -247,7 +247,7 @@ void make_directories(const fs::path& path) {
 }
 
 void refuse_link(const fs::path& path) {
-  std::error_code none;  // of what is not there
+  std::error_code none;  // for a file that does not exist
   if (fs::is_symlink(fs::symlink_status(path, none)))
     throw FileError(fmt::format("cannot write into {}: it is a link, which could lead anywhere", path.string()));
 }

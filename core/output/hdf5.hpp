@@ -1,5 +1,5 @@
-// What wraps HDF5's C interface: identifiers that release themselves, one check of every return value, and
-// the property lists in use. Only core/output/file.cpp, blocks.cpp and disk.cpp include it.
+// Wrappers for HDF5's C interface: identifiers that release themselves, one check of every return value, and the
+// property lists in use. Only core/output/file.cpp, blocks.cpp and disk.cpp include it.
 #pragma once
 
 #include <fmt/format.h>
@@ -21,7 +21,7 @@ namespace polybed::core::hdf5 {
 /// The innermost error of HDF5's stack.
 struct Reason {
   std::string text = "no reason given";
-  bool memory = false;  ///< that it had not enough
+  bool memory = false;  ///< it lacked memory
 };
 
 inline herr_t keep_reason(unsigned depth, const H5E_error2_t* error, void* kept) {
@@ -32,8 +32,8 @@ inline herr_t keep_reason(unsigned depth, const H5E_error2_t* error, void* kept)
   return 0;
 }
 
-/// The one check of what HDF5 returns: negative is a failure, and its innermost reason goes into the message. HDF5 is
-/// kept from printing its errors from its first call on, and for good: it prints when the program ends, too.
+/// The one check of HDF5's return values: a negative one is a failure, and its innermost reason goes into the message.
+/// HDF5's own printing of errors is turned off at the first call for good, as it also prints when the program ends.
 template <class Call>
 auto checked(const std::string& what, Call&& call) {
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
@@ -58,7 +58,7 @@ class Handle {
   Handle(Handle&& other) noexcept : id_(std::exchange(other.id_, -1)) {}
   Handle& operator=(const Handle&) = delete;
   operator hid_t() const { return id_; }
-  /// Releases it now: for what can still fail then.
+  /// Releases it now: for operations that can still fail then.
   void close(const std::string& what) {
     const hid_t id = std::exchange(id_, -1);
     checked(what, [&] { return H5Idec_ref(id); });
@@ -68,7 +68,7 @@ class Handle {
   hid_t id_;
 };
 
-/// Text of any length, which h5py shows as str.
+/// Text of any length, which h5py reads as str.
 inline Handle text_type() {
   return Handle("a text type", [] {
     const hid_t type = H5Tcopy(H5T_C_S1);
@@ -83,7 +83,7 @@ inline Handle simple_space(const std::vector<std::size_t>& shape) {
   });
 }
 
-/// Groups on the way to a new object are made with it.
+/// Creates missing groups on the way to a new object.
 inline Handle making_groups() {
   return Handle("a property list", [] {
     const hid_t list = H5Pcreate(H5P_LINK_CREATE);
@@ -91,7 +91,7 @@ inline Handle making_groups() {
   });
 }
 
-/// Equal data make equal bytes: no time stamps.
+/// Equal data give equal bytes: no time stamps.
 inline Handle dataset_properties() {
   return Handle("a property list", [] {
     const hid_t list = H5Pcreate(H5P_DATASET_CREATE);
@@ -106,7 +106,7 @@ inline void set_packing(hid_t properties, const std::vector<std::size_t>& shape)
   checked("deflate", [&] { return H5Pset_deflate(properties, 4); });
 }
 
-/// Whether numbers repeat themselves: of a sample less than half are new.
+/// Whether numbers repeat: less than half of a sample are new.
 template <class Number>
 bool repeats(std::span<const Number> values) {
   constexpr std::size_t runs = 32, length = 64;
@@ -120,7 +120,7 @@ bool repeats(std::span<const Number> values) {
   return 2 * (std::unique(sample.begin(), sample.end()) - sample.begin()) < std::ptrdiff_t(sample.size());
 }
 
-/// Chunks of at most this many numbers (8 MB): HDF5 wants less than 4 GB, caches 1 MB.
+/// Chunks of at most this many numbers (8 MB): HDF5 requires less than 4 GB and caches 1 MB.
 inline constexpr std::size_t chunk_numbers = 1 << 20;
 
 inline std::vector<std::size_t> chunk_shape(std::vector<std::size_t> shape) {
@@ -140,7 +140,7 @@ inline std::vector<std::size_t> shape_of(hid_t dataset, const std::string& name)
   return {dims.begin(), dims.end()};
 }
 
-/// Where a rank's part lies in a dataset of the shape it names.
+/// The place of a rank's part in a dataset with the shape that it names.
 inline Handle place_of(const Slab& slab, const std::string& name) {
   const std::vector<hsize_t> dims(slab.shape.begin(), slab.shape.end()), start(slab.start.begin(), slab.start.end()),
       count(slab.count.begin(), slab.count.end());
@@ -157,7 +157,7 @@ inline std::size_t product(const std::vector<std::size_t>& shape) {
   return std::accumulate(shape.begin(), shape.end(), std::size_t(1), std::multiplies<>());
 }
 
-/// Takes a text out of a buffer that HDF5 has allocated.
+/// Copies a text from a buffer that HDF5 allocated, and frees it.
 inline std::string taken(char* buffer) {
   std::string text = buffer != nullptr ? buffer : "";
   H5free_memory(buffer);
@@ -173,16 +173,16 @@ inline herr_t collect_name(hid_t, const char* name, const H5L_info_t*, void* nam
   throw FileError(fmt::format("{}: {}; what other files contain is neither read nor changed", path, what));
 }
 
-/// Throws FileError for a link that leads to another file, or by a name: HDF5 follows it anywhere, and changes what is
-/// there. \param path  of the file, for the message
+/// Throws FileError for a link to another file or by name: HDF5 would follow it anywhere and change its target.
+/// \param path  of the file, for the message
 inline void require_own_link(hid_t file, const std::string& name, const std::string& path) {
   H5L_info_t link{};
   checked(name, [&] { return H5Lget_info(file, name.c_str(), &link, H5P_DEFAULT); });
   if (link.type != H5L_TYPE_HARD) refuse_elsewhere(path, name + " is a link to another place");
 }
 
-/// Whether every link on the way exists; asking HDF5 for a path with a missing part is an error. Throws FileError if
-/// the way leads elsewhere.
+/// Whether every link on the way exists; HDF5 fails for a path with a missing part. Throws FileError if the way leads
+/// to another file.
 inline bool exists(hid_t file, const std::string& name, const std::string& path) {
   for (std::size_t end = name.find('/', 1);; end = name.find('/', end + 1)) {
     const std::string part = name.substr(0, end);
@@ -192,7 +192,7 @@ inline bool exists(hid_t file, const std::string& name, const std::string& path)
   }
 }
 
-/// Throws FileError for numbers that are in other files, which HDF5 would read, or overwrite.
+/// Throws FileError for numbers in other files, which HDF5 would read or overwrite.
 inline void require_own_numbers(hid_t dataset, const std::string& name, const std::string& path) {
   const Handle properties(name, [&] { return H5Dget_create_plist(dataset); });
   const bool external = checked(name, [&] { return H5Pget_external_count(properties); }) > 0;
@@ -200,8 +200,8 @@ inline void require_own_numbers(hid_t dataset, const std::string& name, const st
     refuse_elsewhere(path, "the numbers of " + name + " are in another file");
 }
 
-/// Throws FileError for a dataset to which rows cannot be added: HDF5 would say why, but not in which file.
-/// \param shape  rows that it has at least, and columns, 0 for one number a row
+/// Throws FileError for a dataset that cannot grow by rows: HDF5's own message lacks the file.
+/// \param shape  minimum rows, and columns, 0 for one number per row
 inline void require_rows(hid_t dataset, const std::string& name, const std::string& path,
                          std::pair<std::size_t, std::size_t> shape) {
   const auto [rows, columns] = shape;

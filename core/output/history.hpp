@@ -1,4 +1,4 @@
-// history.csv: what a run measures as a whole, one row per history time.
+// history.csv: quantities of the whole run, one row per history time.
 #pragma once
 
 #include <filesystem>
@@ -13,14 +13,14 @@ namespace polybed::core {
 
 class HistoryWriter {
  public:
-  /// Starts history.csv in a run directory that exists, or goes on with it. The first column is the time.
-  /// \param resume_time  empty: a new file. Else s: rows later than that, and a row cut short, are removed.
-  /// Throws FileError, also if the file that it goes on with has other columns.
+  /// Starts history.csv in an existing run directory, or continues it. The first column is the time.
+  /// \param resume_time  empty: a new file. Else s: removes later rows and a row cut short. Throws FileError, also if
+  /// the file to continue has other columns.
   HistoryWriter(const std::filesystem::path& run_directory, std::vector<std::string> columns,
                 std::optional<double> resume_time = std::nullopt);
 
-  /// Adds a row; the shortest digits that read back to the same bits. An entry without value (no interface in
-  /// sight) stays empty. The row goes to the operating system at once and whole: a killed program loses none.
+  /// Adds a row, with the shortest digits that read back to the same bits. An entry without value (no interface
+  /// visible) stays empty. The row goes to the operating system at once and complete: a killed program loses none.
   /// Throws NumericsError, and writes nothing, if a value is not finite.
   void write_row(std::span<const std::optional<double>> row);
   /// Makes the rows survive a power cut. Throws FileError.
@@ -42,7 +42,7 @@ struct History {
   [[nodiscard]] const std::vector<double>& of(const std::string& column) const;
 };
 
-/// Reads history.csv; a last row that was cut short is left out, anything else that is no number is a FileError.
+/// Reads history.csv. Leaves out a last row that was cut short; throws FileError for other entries that are no number.
 [[nodiscard]] History read_history(const std::filesystem::path& run_directory);
 
 }  // namespace polybed::core

@@ -12,9 +12,9 @@ namespace polybed::core {
 
 namespace {
 
-constexpr int deepest = 100;  // brackets within brackets: copies and texts of values recurse
+constexpr int deepest = 100;  // nested brackets: copies and texts of values recurse
 
-/// The library would write null. \param where  names and numbers of what the value lies in
+/// The library would write null. \param where  names and indices on the way to the value
 void refuse_not_finite(const Json& value, const std::string& where) {
   if (value.is_number_float() && !std::isfinite(value.get<double>()))
     throw NumericsError(fmt::format("{} was about to be written as JSON, and is not finite",
@@ -23,7 +23,7 @@ void refuse_not_finite(const Json& value, const std::string& where) {
   for (const auto& [name, part] : value.items()) refuse_not_finite(part, where + "." + name);
 }
 
-/// What the library says without the number of the error before it.
+/// The library's message without its error number.
 std::string reason_of(const Json::exception& error) {
   const std::string_view text = error.what();
   const std::size_t end = text.find("] ");
@@ -69,7 +69,7 @@ Json read_json(const std::filesystem::path& path, const std::string& filetype) {
   Json value = read_json(path);
   try {
     if (text_of(member_of(value, "filetype")) == filetype && number_of(member_of(value, "version")) == 1) return value;
-  } catch (const FileError&) {  // it does not even say
+  } catch (const FileError&) {  // it has no type at all
   }
   throw FileError(fmt::format("{}: no \"{}\" of version 1", path.string(), filetype));
 }

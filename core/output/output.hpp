@@ -1,4 +1,4 @@
-// What a run leaves on the disk while it runs: fields, particles, profiles and the history.
+// Output of a run while it runs: fields, particles, profiles and the history.
 #pragma once
 
 #include "core/output/fields.hpp"

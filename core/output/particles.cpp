@@ -72,14 +72,14 @@ void write_vectors(OutputFile& file, const std::string& name, Vectors values) {
   file.write(name, {values.size(), 3}, flat, Packing::if_small);
 }
 
-/// ParaView shows points only where a list says which points are shown: all of them.
+/// ParaView shows only the points in a list of points: write a list of all.
 void write_connectivity(OutputFile& file, std::size_t count) {
   std::vector<std::int64_t> numbers(count);
   std::iota(numbers.begin(), numbers.end(), 0);
   file.write("paraview/connectivity", {count}, numbers, Packing::small);
 }
 
-/// All but the vectors.
+/// Writes everything except the vectors.
 template <class Shown>
 OutputFile step_head(const ParticleScene& scene, const Shown& p, double time) {
   OutputFile file(particles_step_kind);
@@ -95,7 +95,7 @@ OutputFile step_head(const ParticleScene& scene, const Shown& p, double time) {
 }
 
 struct XdmfData {
-  const char *name, *type;  ///< type: "Scalar" or "Vector"; null for what is no attribute
+  const char *name, *type;  ///< type: "Scalar" or "Vector"; null: no attribute
   const char *number, *precision, *place;
 };
 

@@ -1,5 +1,5 @@
-// particles.h5 and particles.xdmf: every particle at each output time, in the order of their ids. How the files are
-// kept whole: core/output/steps.hpp.
+// particles.h5 and particles.xdmf: every particle at each output time, in the order of their ids. core/output/steps.hpp
+// describes how the files stay complete.
 #pragma once
 
 #include <array>
@@ -28,15 +28,15 @@ struct ParticleSnapshot {
   std::span<const std::array<double, 3>> spin;      ///< angular velocity, rad/s
 };
 
-/// What the particles are in, and what they are called.
+/// The column of the particles, and the names of their species.
 struct ParticleScene {
-  std::array<double, 3> size{};      ///< of the column along x, y, z, m
-  std::array<bool, 3> periodic{};    ///< sides joined
+  std::array<double, 3> size{};      ///< size of the column along x, y, z, m
+  std::array<bool, 3> periodic{};    ///< joined sides
   std::vector<std::string> species;  ///< names, in the order of the case
   bool operator==(const ParticleScene&) const = default;
 };
 
-/// What the first rank writes of all particles while each writes its share of their vectors.
+/// Data of all particles that the first rank writes, while each rank writes its share of the vectors.
 struct ParticleHead {
   std::vector<std::int64_t> id;  ///< rising
   std::vector<std::int32_t> species;
@@ -48,22 +48,22 @@ void require_finite(const char* quantity, std::int64_t id, const std::array<doub
 
 class ParticleWriter {
  public:
-  /// Starts particles.h5 in a run directory that exists, or goes on with it.
-  /// \param resume_time  empty: what an earlier run left is removed. Else s: steps later than that are
-  /// removed. Throws FileError, also if the file that it goes on with has another scene.
+  /// Starts particles.h5 in an existing run directory, or continues it.
+  /// \param resume_time  empty: removes what an earlier run left. Else s: removes later steps. Throws FileError, also
+  /// if the file to continue has another scene.
   /// \param ranks  that write together; null: one. Collective.
   ParticleWriter(const std::filesystem::path& run_directory, ParticleScene scene,
                  std::optional<double> resume_time = std::nullopt, std::shared_ptr<const Ranks> ranks = nullptr);
 
-  /// Stores the particles at a time, any number of them; complete on the disk when it returns.
-  /// Throws NumericsError, and writes nothing, if a value is not finite: quantity and id are in the text.
-  /// Throws std::invalid_argument if lengths differ, ids do not rise, or a species has no name.
+  /// Stores the particles at a time, any number of them; complete on the disk when it returns. Throws NumericsError
+  /// with quantity and id, and writes nothing, if a value is not finite. Throws std::invalid_argument if lengths
+  /// differ, ids do not increase, or a species has no name.
   void write_step(double time_s, const ParticleSnapshot& particles);
-  /// The same of particles that no rank has memory for, known to be finite. Collective.
+  /// The same for particles that no rank has memory for; they must be finite. Collective.
   /// \param head  on the first rank   \param vectors  "position", "velocity" and "spin" of all, in pieces
   void write_step(double time_s, const ParticleHead& head, std::vector<BlockData> vectors);
 
-  /// On the first rank.
+  /// Available on the first rank.
   [[nodiscard]] const std::vector<double>& times() const { return steps_->times(); }
 
  private:

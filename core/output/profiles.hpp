@@ -11,16 +11,16 @@
 
 namespace polybed::core {
 
-/// Of a column whose diameter changes, the cross-section of each entry, m2.
+/// Name of the dataset with the cross-section of each entry, m2, in a column whose diameter changes.
 constexpr const char* area_of_slabs = "area";
 
 class ProfileWriter {
  public:
-  /// Starts profiles.h5 in a run directory that exists, or goes on with it.
+  /// Starts profiles.h5 in an existing run directory, or continues it.
   /// \param height  y of each entry of a row, m
   /// \param names   of the datasets [time][y]: "phi_fine", "voidage", "u_fine", "p"
-  /// \param resume_time  empty: a new file. Else s: rows later than that are removed.
-  /// Throws FileError, also if the file that it goes on with has other heights or names.
+  /// \param resume_time  empty: a new file. Else s: removes later rows. Throws FileError, also if the file to continue
+  /// has other heights or names.
   ProfileWriter(const std::filesystem::path& run_directory, std::vector<double> height, std::vector<std::string> names,
                 std::optional<double> resume_time = std::nullopt);
 
@@ -38,7 +38,7 @@ class ProfileWriter {
   std::optional<OutputFile> file_;
 };
 
-/// All of profiles.h5.
+/// The contents of profiles.h5.
 struct Profiles {
   std::vector<double> time;    ///< s
   std::vector<double> height;  ///< m

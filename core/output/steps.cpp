@@ -14,7 +14,7 @@ namespace {
 namespace fs = std::filesystem;
 
 void remove_quietly(const fs::path& path) {
-  std::error_code ignored;  // a file that stays is linked by nothing
+  std::error_code ignored;  // a file that stays has no link to it
   fs::remove(path, ignored);
 }
 
