@@ -20,13 +20,13 @@ double total_volume(const Profile& profile) {
   return sum;
 }
 
-/// Slices of equal solids volume from the bottom up: the shares of the species in each, and its top.
+/// Slices of equal solids volume from the bottom up: species shares and top of each.
 struct Slices {
   std::vector<std::vector<double>> share;  ///< [slice][species]
   std::vector<double> top;                 ///< m
 };
 
-/// Volume of a species per area below a height, m.
+/// Volume of a species below a height per area, m.
 double volume_below(const Profile& profile, std::size_t species, double z) {
   double sum = 0;
   for (std::size_t k = 0; k < profile.slabs(); ++k) {
@@ -59,7 +59,7 @@ std::optional<Slices> slices_of(const Profile& profile) {
   return slices;
 }
 
-/// Value at 0 and slope of the straight line through the pressure of the slabs with centres in a range.
+/// Value at 0 and slope of the straight line through the pressure of the slabs whose centres are in a range.
 std::optional<std::pair<double, double>> pressure_line(const Profile& profile, double from, double to) {
   double n = 0, z = 0, p = 0, zz = 0, zp = 0;
   for (std::size_t k = 0; k < profile.pressure.size(); ++k) {

@@ -1,4 +1,4 @@
-// The measures of a bed: one table for both models, for finished runs and for studies.
+// The measures of a bed: one table for both models, finished runs and studies.
 #pragma once
 
 #include "measures/profile.hpp"
@@ -9,26 +9,26 @@ namespace polybed::measures {
 /// A bed at one time.
 struct Bed {
   Profile profile = {};
-  // What a run alone knows.
+  // Known only to a run.
   double time = 0, step = 0;      ///< s
   double buoyant_weight = 0;      ///< Pa
   std::vector<double> mass = {};  ///< kg, [species]
-  // What a run of particles knows better than by its profile; empty: by the profile.
+  // More exact values from a run of particles; empty: computed from the profile.
   Value pressure_drop = {};        ///< Pa
   std::vector<Value> centre = {};  ///< m, [species]
 };
 
-/// A row here is a measure everywhere. History.csv has the rows in this order.
+/// Each row becomes a measure everywhere. The columns of history.csv follow this order.
 [[nodiscard]] Table<Bed> bed_table();
 
-/// A profile beside another one on the same slabs.
+/// A profile next to another one on the same slabs.
 struct Beside {
   const Profile &profile, &reference;
 };
 
 [[nodiscard]] Table<Beside> distance_table();
 
-/// history.csv of either model: what is read off the bed, then what the model alone knows.
+/// history.csv of either model: measures of the bed, then the model's own.
 template <class Own>
 class History {
  public:

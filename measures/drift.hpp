@@ -1,4 +1,4 @@
-// Whether a run has become steady: what its measures still drift by at its end.
+// Whether a run has become steady: the remaining drift of its measures at the end.
 #pragma once
 
 #include <optional>
@@ -14,27 +14,27 @@ struct Drift {
   double error = 0;  ///< half-width of the 95 % interval of the slope, per s
 };
 
-/// Least squares through the means of ten equal parts of the time spanned, which leaves out what varies within a part;
-/// the interval is Student's of eight degrees of freedom. Empty where a part has no value.
+/// Least squares through the means over ten equal parts of the time span, which filters fluctuations within a part. The
+/// interval is Student's with eight degrees of freedom. Empty if a part has no value.
 [[nodiscard]] std::optional<Drift> drift_of(std::span<const double> time, std::span<const double> value);
 
 struct DriftOfMeasure {
   std::string name;
   Drift drift;         ///< m/s
-  bool steady = true;  ///< the drift cannot be told from 0, or does not matter
+  bool steady = true;  ///< the drift cannot be distinguished from 0, or is negligible
 };
 
 /// A height of a run at each of its times.
 struct HeightSeries {
   std::string name;
   std::vector<double> values;  ///< m
-  double settling = 0;         ///< s, in which what has it settles alone through the height of the bed
+  double settling = 0;         ///< s, for the slowest solids to settle alone through the height of the bed
 };
 
-/// What the heights of a run still drift by over the last quarter of its time. It matters if another run as long, or
-/// the time of settling if that is longer, would move one by more than a thousandth of the bed's height. Empty for a
-/// height that has too few rows there, or a row without a value.
-/// \param heights  the first is that of the bed
+/// The drift of a run's heights over the last quarter of its time. A drift matters if, over another run of the same
+/// length or over the settling time if that is longer, it would move a height by more than a thousandth of the bed's
+/// height. Empty for a height with too few rows there, or with a row without a value.
+/// \param heights  the bed's height comes first
 [[nodiscard]] std::vector<DriftOfMeasure> drifts_of(std::span<const double> time,
                                                     const std::vector<HeightSeries>& heights);
 

@@ -86,7 +86,7 @@ const WorstInvariant& Invariants::nearest() const {
 
 namespace {
 
-/// In the block, m3.
+/// Volumes in the block, m3.
 std::vector<double> volumes_here(const core::Grid& grid, const fluid::Interphase& solids) {
   std::vector<double> result;
   for (const core::Field& phi : solids.fraction) {

@@ -10,7 +10,7 @@ namespace {
 
 double volume_of(double radius) { return sphere_volume_below(radius, 0, radius); }
 
-/// A power of two such that `count` numbers of at most `most` add up to less than 2^62 of it.
+/// A power of two such that `count` numbers of at most `most` sum to less than 2^62 of it.
 double unit_for(std::int64_t count, double most) {
   const double bound = double(count) * most;
   return bound > 0 ? std::ldexp(1.0, std::ilogb(bound) + 1 - 62) : 1.0;
@@ -45,7 +45,7 @@ ParticleAdder::Reach ParticleAdder::reach_of(double radius, double centre) const
   std::int64_t least = -count, most = 2 * count - 1;  // one column down and up
   if (!slabs_.joined) {
     const bool inside = centre >= 0 && centre <= slabs_.height;
-    least = inside ? 0 : -1;  // all that lies beyond an end is one slab
+    least = inside ? 0 : -1;  // everything beyond an end is one slab
     most = inside ? count - 1 : count;
     if (inside && 2 * radius <= slabs_.height) centre = std::clamp(centre, radius, slabs_.height - radius);
   }
@@ -66,7 +66,7 @@ void ParticleAdder::add(std::size_t species, double radius, double centre, const
   std::int64_t below = 0;
   for (std::int64_t n = reach.first; n <= reach.last; ++n) {
     const double plane = double(n + 1) * thickness_;
-    // Of rounded caps: the parts add up to the rounded sphere.
+    // Round the cap below, so that the parts sum to the rounded sphere.
     const std::int64_t up_to_here =
         n == reach.last ? whole_ : std::llrint(sphere_volume_below(radius, reach.centre, plane) * per_unit_[0]);
     const std::int64_t part = up_to_here - below;
@@ -100,7 +100,7 @@ ParticleProfile particle_profile(const ParticleSums& sums, std::size_t species, 
       if (!(volume > 0)) continue;
       const double mean_squared = speed_squared({x / volume, y / volume, z / volume});
       profile.velocity[j][k] = y / volume;
-      // Of particles that move as one the difference is rounding, which may be negative.
+      // Rounding can make the difference negative for particles that move as one.
       profile.temperature[j][k] = std::max(energy / volume - mean_squared, 0.0) / 3;
     }
   return profile;

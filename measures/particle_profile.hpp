@@ -1,8 +1,8 @@
-// Particles as a vertical profile, by the exact part of each sphere between two planes, so that measures/bed measures
-// a bed of particles and a continuum by one definition.
+// Vertical profile of particles, with the exact part of each sphere between two planes. measures/bed thus measures a
+// bed of particles and a continuum by one definition.
 //
-// Sums run in whole numbers: the result has the same bits in any order of the particles, and on any number of ranks
-// if the units (agreed first) and the sums are added up over them.
+// Sums use whole numbers: the result has the same bits for any order of the particles, and for any number of ranks if
+// the units (agreed first) and the sums are added up over them.
 #pragma once
 
 #include <array>
@@ -20,18 +20,18 @@ namespace polybed::measures {
 /// \param radius  R, m, >= 0   \param centre  height of the centre, m   \param plane  height of the plane, m
 [[nodiscard]] double sphere_volume_below(double radius, double centre, double plane);
 
-/// Slabs of one thickness that a column is cut into.
+/// The slabs of equal thickness in a column.
 struct Slabs {
   double area = 0;    ///< of the column's cross-section, m2
   double height = 0;  ///< of the column, m
   std::size_t count = 0;
-  bool joined = false;             ///< what lies beyond one end of the column is at the other
-  double image_speed = 0;          ///< along x, of the image of a particle one column up: of a sheared box, m/s
-  std::vector<double> areas = {};  ///< of a tapered column the mean in each, m2; else empty
+  bool joined = false;             ///< the ends of the column are joined
+  double image_speed = 0;          ///< along x, of a particle's image one column higher in a sheared box, m/s
+  std::vector<double> areas = {};  ///< for a tapered column the mean in each, m2; else empty
   [[nodiscard]] double thickness() const { return height / double(count); }
 };
 
-/// What fixes the units of the sums: over ranks, `particles` is added up and of the others the greatest is taken. In a
+/// Values that set the units of the sums. Over ranks, add up `particles` and take the greatest of the others. In a
 /// sheared box the images count, too.
 struct ParticleExtremes {
   std::int64_t particles = 0;
@@ -46,23 +46,23 @@ struct ParticleExtremes {
 struct ParticleSums {
   static constexpr std::size_t quantities = 5;
   std::array<double, quantities> unit{};
-  std::vector<std::int64_t> sum;  ///< [species][quantity][slab]; over ranks, to be added up
+  std::vector<std::int64_t> sum;  ///< [species][quantity][slab]; add up over ranks
 };
 
-/// Makes them, particle by particle. A particle that is pressed into an end of the column counts where it would touch
-/// it: a species' sum of V is that of its particles, each rounded to a unit. Only of one whose centre has left the
-/// column, through an opening, the part that is still inside counts. Through joined ends a particle goes on at the
-/// other one, in a sheared box with its image's velocity.
+/// Computes the sums, particle by particle. A particle pressed into an end of the column is moved to the point where it
+/// touches the end: a species' sum of V is then the sum over its particles, each rounded to a unit. Only the part
+/// inside counts for a particle whose centre has left through an opening. At joined ends a particle continues at the
+/// other end, in a sheared box with its image's velocity.
 class ParticleAdder {
  public:
-  /// \param all  of the particles on all ranks
+  /// \param all  over the particles on all ranks
   ParticleAdder(std::size_t species, const Slabs& slabs, const ParticleExtremes& all);
   /// \param centre  height, m
   void add(std::size_t species, double radius, double centre, const std::array<double, 3>& velocity);
   [[nodiscard]] ParticleSums take() { return std::move(sums_); }
 
  private:
-  /// Slabs that a particle reaches into, counted on beyond the ends.
+  /// Slabs that a particle overlaps, numbered beyond the ends too.
   struct Reach {
     double centre;  ///< m
     std::int64_t first, last;
@@ -73,7 +73,7 @@ class ParticleAdder {
   double thickness_;                                       ///< m
   std::array<double, ParticleSums::quantities> per_unit_;  ///< one over the units
   ParticleSums sums_;
-  double radius_ = 0;       ///< of the last one, m
+  double radius_ = 0;       ///< of the last particle, m
   std::int64_t whole_ = 0;  ///< its volume in units
 };
 
@@ -85,12 +85,12 @@ struct ParticleProfile {
 };
 [[nodiscard]] ParticleProfile particle_profile(const ParticleSums& sums, std::size_t species, const Slabs& slabs);
 
-/// A sum of numbers no greater than `most` that does not depend on their order.
+/// A sum that does not depend on the order of its terms, none above `most`.
 class SteadySum {
  public:
   SteadySum(std::int64_t count, double most);
   void add(double value) { sum_ += std::llrint(value * per_unit_); }
-  /// In whole units: over ranks, to be added up.
+  /// In whole units; add up over ranks.
   [[nodiscard]] std::int64_t units() const { return sum_; }
   [[nodiscard]] double value_of(std::int64_t units) const { return double(units) / per_unit_; }
 

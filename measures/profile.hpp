@@ -1,4 +1,4 @@
-// Lateral averages of a bed on its vertical axis: what both models measure from.
+// Lateral averages of a bed on its vertical axis, from which both models compute their measures.
 #pragma once
 
 #include <span>
@@ -13,12 +13,12 @@ struct Profile {
   double slab = 0;                            ///< thickness, m
   std::vector<std::vector<double>> fraction;  ///< phi_j, [species][slab]
   std::vector<double> pressure;               ///< net p, Pa; may be empty
-  std::vector<double> areas = {};             ///< of the slabs, m2; empty: all alike
+  std::vector<double> areas = {};             ///< of the slabs, m2; empty: all equal
 
   [[nodiscard]] std::size_t slabs() const { return fraction.empty() ? 0 : fraction.front().size(); }
   [[nodiscard]] double centre(std::size_t k) const { return (double(k) + 0.5) * slab; }
   [[nodiscard]] double area(std::size_t k) const { return areas.empty() ? 1 : areas[k]; }
-  /// phi = sum phi_j of a slab, negative fractions taken as they are.
+  /// phi = sum phi_j of a slab; negative fractions count as they are.
   [[nodiscard]] double solids_fraction(std::size_t k) const {
     double sum = 0;
     for (const auto& phi : fraction) sum += phi[k];
@@ -26,14 +26,14 @@ struct Profile {
   }
 };
 
-/// The same profile on slabs of another thickness: each takes the part of every slab that lies in it, so that volumes
-/// stay what they were; what lies above the last slab is left out. \param slab  thickness, m, > 0
+/// The same profile on slabs of another thickness. Each receives the parts of the old slabs that lie in it, so that
+/// volumes are kept; the part above the last slab is dropped. \param slab  thickness, m, > 0
 [[nodiscard]] Profile on_slabs(const Profile& profile, double slab, std::size_t count);
 
-/// What the block's cells are of the mean over each horizontal layer of the column of a padded cell field; [layer from
-/// the bottom]. The sum over the ranks is the mean.
+/// The block's part of the mean over each horizontal layer of the column for a padded cell field; [layer from the
+/// bottom]. The sum over the ranks is the mean.
 [[nodiscard]] std::vector<double> part_of_lateral_mean(const core::Grid& grid, std::span<const double> field);
-/// That mean. Collective.
+/// The complete mean. Collective.
 [[nodiscard]] std::vector<double> lateral_mean(const core::Grid& grid, std::span<const double> field);
 
 }  // namespace polybed::measures

@@ -14,7 +14,7 @@ std::vector<Kind> kinds_of(const std::vector<std::string>& species) {
     for (std::size_t j = place(first); j < species.size();
          j = place(whole.name + "." + std::to_string(whole.members.size() + 1)))
       whole.members.push_back(j);
-    if (whole.members.size() < 2) continue;  // of one class the whole would be the same again
+    if (whole.members.size() < 2) continue;  // a single class is the whole species
     for (const std::size_t j : whole.members) kinds[j].is_class = true;
     kinds.push_back(std::move(whole));
   }

@@ -1,6 +1,6 @@
-// A table of measures: a row for each, with its name, unit, definition and function. The columns of history.csv, the
-// heights whose drift a run tells, the answers of polybed measure, the page of the documentation and the table of the
-// Python package are read off it.
+// A table of measures: each row has a name, a unit, a definition and a function. The table defines the columns of
+// history.csv, the heights whose drift a run reports, the answers of polybed measure, the page in the documentation and
+// the table in the Python package.
 #pragma once
 
 #include <algorithm>
@@ -15,7 +15,7 @@ namespace polybed::measures {
 
 using Value = std::optional<double>;  ///< empty: there is nothing to measure
 
-/// Numbers of the species that count as one: a single one, or all size classes of one.
+/// Indices of the species that count as one: a single one, or all size classes of one.
 using Members = std::span<const std::size_t>;
 
 [[nodiscard]] inline double sum_of(const std::vector<double>& values, Members members) {
@@ -24,23 +24,23 @@ using Members = std::span<const std::size_t>;
   return sum;
 }
 
-/// What a case calls a species.
+/// A species as the case names it.
 struct Kind {
   std::string name;
   std::vector<std::size_t> members;
-  bool is_class = false;  ///< one size class of a species, which is a kind, too
+  bool is_class = false;  ///< a size class of a species, which is a kind, too
 };
 
-/// Each species, then each that has size classes ("sand.1", "sand.2") as a whole ("sand"). A case that names a species
-/// "sand" itself has no classes of it.
+/// Each species, then each species with size classes ("sand.1", "sand.2") as a whole ("sand"). No classes belong to
+/// "sand" if a case names a species so itself.
 [[nodiscard]] std::vector<Kind> kinds_of(const std::vector<std::string>& species);
 
-/// Who reads a measure.
+/// The readers of a measure.
 struct Readers {
-  bool history = true;   ///< history.csv has a column of it
-  bool profile = false;  ///< it is of a profile alone, and polybed measure tells it
-  bool drift = false;    ///< a height, m: a run says at its end whether it still drifts
-  bool picture = false;  ///< a level in the bed, m: pictures of the history and of profiles draw a line there
+  bool history = true;   ///< history.csv has a column for it
+  bool profile = false;  ///< computed from a profile alone, and reported by polybed measure
+  bool drift = false;    ///< a height, m: a run reports at its end whether it still drifts
+  bool picture = false;  ///< a level in the bed, m: pictures of the history and of profiles show it as a line
 };
 
 /// One row: a measure of a `Source`, as a whole or of each species in it.
@@ -50,7 +50,7 @@ struct Measure {
   using OfSpecies = std::function<Value(const Source&, Members)>;
 
   std::string name;  ///< "bed_height"; "centre" of the species "fine" is "centre_fine"
-  std::string unit;  ///< "1" of a number
+  std::string unit;  ///< "1" for a number
   std::string help;  ///< its definition
   std::variant<OfWhole, OfSpecies> of;
   Readers readers = {};
@@ -61,14 +61,14 @@ struct Measure {
 template <class Source>
 using Table = std::vector<Measure<Source>>;
 
-/// The rows that someone reads, e.g. &Readers::history.
+/// The rows with a given reader, e.g. &Readers::history.
 template <class Source>
 [[nodiscard]] Table<Source> read_by(bool Readers::*reader, Table<Source> table) {
   std::erase_if(table, [reader](const Measure<Source>& measure) { return !(measure.readers.*reader); });
   return table;
 }
 
-/// A measure of one number.
+/// A measure with one number.
 template <class Source>
 struct Single {
   std::string name, unit, help;
@@ -80,8 +80,8 @@ struct Single {
   [[nodiscard]] std::string column() const { return unit == of_number ? name : name + "_" + unit; }
 };
 
-/// The numbers that a table asks for where there are these species: of each, and of each as a whole that has size
-/// classes. Rows of each species that follow each other stay together, species by species.
+/// The numbers in a table for given species: for each species, and for each species with size classes as a whole.
+/// Adjacent rows per species stay together, species by species.
 template <class Source>
 [[nodiscard]] std::vector<Single<Source>> singles(const Table<Source>& table, const std::vector<std::string>& species) {
   using Row = Measure<Source>;
@@ -105,7 +105,7 @@ template <class Source>
   return found;
 }
 
-/// What they measure, in their order.
+/// The values of the measures, in order.
 template <class Source>
 [[nodiscard]] std::vector<Value> values(const std::vector<Single<Source>>& measures, const Source& source) {
   std::vector<Value> found;

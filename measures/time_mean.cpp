@@ -22,7 +22,7 @@ bool all_finite(std::span<const double> values) {
   return std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
 }
 
-/// Half-width by batch means; the rows that do not fill a batch are left out at the beginning.
+/// Half-width by batch means. Rows at the beginning that do not fill a batch are left out.
 Value batch_interval(std::span<const double> values) {
   const std::size_t batches = values.size() >= 40 ? 20 : 10, length = values.size() / batches;
   if (length < 2) return {};
@@ -87,7 +87,7 @@ Value interval_of_repeats(std::span<const double> values) {
 std::size_t rows_to_drop(std::span<const double> values) {
   if (values.size() < 4 || !all_finite(values)) return 0;
   std::size_t best = 0;
-  double least = 0, mean = 0, squares = 0;  // of the rows from d on (Welford)
+  double least = 0, mean = 0, squares = 0;  // over the rows from d on (Welford)
   for (std::size_t d = values.size(), rows = 1; d-- > 0; ++rows) {
     const double before = values[d] - mean;
     mean += before / double(rows);

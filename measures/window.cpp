@@ -20,7 +20,7 @@ double ratio(double above, double below) {
   return below != 0 ? above / below : std::numeric_limits<double>::quiet_NaN();
 }
 
-/// Centre of species 2 less that of species 1, over the bed height.
+/// Centre of species 2 minus centre of species 1, over the bed height.
 Series centre_difference(const StoredRun& run) {
   if (run.species.size() < 2) return {};
   const Series *low = run.history.find("centre_" + run.species[0] + "_m"),
@@ -31,7 +31,7 @@ Series centre_difference(const StoredRun& run) {
   return found;
 }
 
-/// Where the marginal standard error rule has the window begin for a series, s.
+/// Start of the window for a series by the marginal standard error rule, s.
 double begin_by_rule(const Series& time, const Series& values, const Window& window) {
   if (values.empty()) return window.begin;
   const Rows rows = window.rows(time);
@@ -41,7 +41,7 @@ double begin_by_rule(const Series& time, const Series& values, const Window& win
 
 // ---- profiles
 
-/// The mean profile over stored beds, and those without each group of them.
+/// The mean profile over stored beds, and the means without each group of them.
 struct MeanProfile {
   Profile all;
   std::vector<Profile> without;
@@ -70,7 +70,7 @@ std::vector<Value> of_each(const std::vector<Profile>& profiles, const Function&
   return found;
 }
 
-/// What a function gives for a mean profile.
+/// Values of a function for a mean profile.
 template <class Function>
 std::optional<TimeMean> measured(const MeanProfile& profile, const Function& function) {
   const Value value = function(profile.all);
@@ -78,7 +78,7 @@ std::optional<TimeMean> measured(const MeanProfile& profile, const Function& fun
   return TimeMean{*value, jackknife_interval(of_each(profile.without, function))};
 }
 
-/// The run with its profiles on so many slabs.
+/// The run with its profiles on a given number of slabs.
 StoredRun laid_on(std::size_t slabs, StoredRun run) {
   for (Bed& bed : run.beds)
     if (const Profile& own = bed.profile; slabs > 0 && own.slabs() != slabs)
@@ -86,7 +86,7 @@ StoredRun laid_on(std::size_t slabs, StoredRun run) {
   return run;
 }
 
-/// Mean over the beds of what a measure changes by from one to the other.
+/// Mean change of a measure over the beds, from one run to the other.
 double change(const Single<Bed>& measure, const StoredRun& run, const StoredRun& laid, const Rows& rows) {
   Series changes;
   for (std::size_t n = rows.begin; n < rows.end; ++n) {
@@ -111,7 +111,7 @@ void add_profiles(const StoredRun& run, const StoredRun& laid, const Rows& rows,
   }
 }
 
-/// Half-width of the interval of what either run's groups vary.
+/// Half-width of the interval from the variation of both runs' groups.
 Value joint_interval(const std::vector<Value>& one, const std::vector<Value>& other) {
   const std::optional<Jackknife> a = jackknife(one), b = jackknife(other);
   if (!a || !b) return {};

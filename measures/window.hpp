@@ -1,4 +1,4 @@
-// What a run has measured over a window of its time, and how far two runs are apart there.
+// Measures of a run over a time window, and the distance between two runs there.
 #pragma once
 
 #include <map>
@@ -11,54 +11,54 @@
 
 namespace polybed::measures {
 
-/// A run as it is stored.
+/// A run as stored.
 struct StoredRun {
   std::vector<std::string> species;
-  core::History history = {};     ///< without columns: there is none
+  core::History history = {};     ///< without columns: not stored
   std::vector<double> time = {};  ///< s, of the beds
-  std::vector<Bed> beds = {};     ///< by their stored profiles
+  std::vector<Bed> beds = {};     ///< from their stored profiles
 };
 
 using Means = std::map<std::string, TimeMean>;
 
-/// Pressure drop over buoyant weight, row by row; NaN without a weight. Empty where the history lacks the columns.
+/// Pressure drop over buoyant weight, row by row; NaN without a weight. Empty if the history lacks the columns.
 [[nodiscard]] std::vector<double> drop_over_weight(const core::History& history);
-/// The columns of a history but the time, and pressure_drop_over_weight and centre_difference, which follow from them.
+/// The columns of a history except time, plus pressure_drop_over_weight and centre_difference, which follow from them.
 [[nodiscard]] std::map<std::string, std::vector<double>> series_of(const StoredRun& run);
 
-/// The time over which means are taken, s.
+/// The time window for means, s.
 struct Window {
   double begin = 0, end = 0;
   bool shortened = false;  ///< by the marginal standard error rule
 
-  /// Which of the times it has, up to the rounding of its ends; these may lie beyond all of them.
+  /// The rows inside the window, up to rounding at its ends; the ends can lie beyond all rows.
   [[nodiscard]] Rows rows(std::span<const double> time) const;
 };
 
 /// \param time  of rows or profiles; not empty
 [[nodiscard]] Window last_quarter(std::span<const double> time);
 
-/// The last quarter of the time that all histories have, or what the marginal standard error rule leaves of it for bed
+/// The last quarter of the time common to all histories, shortened by the marginal standard error rule for the bed
 /// height and centre difference of each. Throws core::FileError if they have no time in common.
 [[nodiscard]] Window common_window(const std::vector<const StoredRun*>& runs);
 
 struct InWindow {
   std::size_t rows = 0;                          ///< of the history
-  double step = 0;                               ///< s, from row to row, in the mean
+  double step = 0;                               ///< s, mean distance between rows
   Means means = {};                              ///< of series_of()
-  std::size_t profiles = 0;                      ///< stored ones
+  std::size_t profiles = 0;                      ///< number of stored profiles
   std::vector<double> height = {};               ///< of the centres of slabs, m
   std::vector<std::vector<TimeMean>> mean = {};  ///< [species][slab]; intervals leave out groups of profiles
-  Means of_mean = {};                            ///< measures of the mean profile; likewise
+  Means of_mean = {};                            ///< measures of the mean profile; intervals likewise
 };
 
-/// \param slabs  number of those on which the profiles are laid first, which moves the means of bed height and centres
-///               by what it changes in the mean; 0: as they are
+/// \param slabs  number of slabs to convert the profiles to; the means of bed height and centres then shift by the mean
+/// change. 0: no conversion
 [[nodiscard]] InWindow in_window(const StoredRun& run, const Window& window, std::size_t slabs = 0);
 
-/// Distances of the mean profile of a run from that of another one, by the rows of distance_table(); intervals leave
-/// out groups of either's profiles. Empty without a profile of both. Throws core::FileError if the runs are of other
-/// species, or of other slabs and are not laid on the same number. \param slabs  as of in_window()
+/// Distances between the mean profiles of two runs, by the rows of distance_table(); intervals leave out groups of
+/// either run's profiles. Empty unless both have profiles. Throws core::FileError for different species, or for
+/// different slabs that are not converted. \param slabs  as for in_window()
 [[nodiscard]] Means distances(const StoredRun& run, const StoredRun& reference, const Window& window,
                               std::size_t slabs = 0);
 
