@@ -14,7 +14,7 @@ namespace {
 
 using namespace std::string_view_literals;
 
-// The laws by what they were made from; a law of none of these lists suits any scene.
+// The data behind each law. A law in none of these lists suits any scene.
 constexpr std::array of_one_sphere{"stokes"sv, "turton_levenspiel"sv, "schiller_naumann"sv, "dallavalle"sv};
 constexpr std::array of_packed_beds{"carman_kozeny"sv, "ergun"sv, "fand"sv};
 constexpr std::array of_held_spheres{"cello"sv,          "vbk"sv, "vbk_theory"sv, "vbk_corrected"sv, "yin_sundaresan"sv,
@@ -27,7 +27,7 @@ bool is_among(const List& list, const std::string& law) {
   return std::find(list.begin(), list.end(), law) != list.end();
 }
 
-/// Whether the inlet lifts any of the species, by the correlation of Wen and Yu: it needs no law of the case.
+/// Whether the inlet lifts any of the species, from the correlation of Wen and Yu, which needs no law of the case.
 bool is_lifted(const core::Scene& scene, const Survey& survey) {
   return std::any_of(scene.species.begin(), scene.species.end(), [&](const core::Species& s) {
     return survey.greatest_velocity >= closures::minimum_fluidisation(s.diameter, s.density - survey.fluid_density,

@@ -1,4 +1,4 @@
-// Which drag law a scene calls for, and whether the law that it names suits it: docs/guide/choose-a-drag-law.md.
+// Drag laws that suit a scene, and whether the law of a case does: docs/guide/choose-a-drag-law.md.
 #pragma once
 
 #include <string>
@@ -10,37 +10,37 @@ namespace polybed::relevance {
 
 struct Survey;
 
-/// What is dragged.
+/// The state of the spheres that feel drag.
 enum class DragScene {
   lone,        ///< spheres far from each other
-  fixed,       ///< held, or packed and never lifted
+  fixed,       ///< fixed in space, or packed and never lifted
   gas_bed,     ///< suspended in a gas
   liquid_bed,  ///< suspended in a liquid, which expands them evenly
 };
 
-/// \param survey  with the fluid's properties and the bed as it starts
+/// \param survey  contains the fluid's properties and the bed at the start
 [[nodiscard]] DragScene drag_scene_of(const core::Scene& scene, const Survey& survey);
 
-/// The law to take, and its partition: "none" if it needs no other.
+/// The recommended law and partition; the partition is "none" if the law needs none.
 struct AdvisedDrag {
   std::string law, partition = "none";
 };
 [[nodiscard]] AdvisedDrag advised_drag(const core::Scene& scene, DragScene kind);
 
-/// Laws that were made from beds of a kind, to compare the law of a case with; none of lone and of fixed spheres.
+/// Laws derived from beds of a kind, for comparison with the law of a case; empty for lone and fixed spheres.
 [[nodiscard]] std::vector<std::string> laws_of_beds(DragScene kind);
 
-/// Why a law does not suit; empty if it does, or if nothing is known of it, as of a fitted one.
+/// Why a law does not suit; empty if it does, or if nothing is known about it, as about a fitted law.
 [[nodiscard]] std::string unsuited(const std::string& law, DragScene kind);
 
-/// Whether a law knows of one sphere alone: in a bed it is wrong, not merely less accurate than others.
+/// Whether a law is valid only for a lone sphere: in a bed it is wrong, not just less accurate than others.
 [[nodiscard]] bool ignores_neighbours(const std::string& law);
 
-/// Whether a partition can share a law: one of a single size that acts on each species by itself.
+/// Whether a partition can distribute a law: it must be for one size and act on each species separately.
 [[nodiscard]] bool is_mean_law(const std::string& law);
 
-/// The laws that a run takes: those that the scene names, in place of "auto" the advised ones, and "none" for what a
-/// law of mixtures does itself. Without a drag that acts they are the advised ones, by which forces are balanced.
+/// The laws of a run: those that the scene names, the recommended ones for "auto", and "none" for a partition that a
+/// mixture law replaces. If no drag acts, the recommended laws are used to balance forces.
 [[nodiscard]] AdvisedDrag drag_taken(const core::Scene& scene, const Survey& survey);
 
 }  // namespace polybed::relevance

@@ -9,7 +9,7 @@ namespace polybed::relevance {
 
 namespace {
 
-/// The roles that the case decides itself. What it does not name is off.
+/// The roles that the case decides itself. Roles that it does not name are off.
 DecisionRule rule_of_case(const core::Scene& scene, const Menu& menu) {
   DecisionRule rule{scene.chooser.tolerance, scene.chooser.purpose == core::Purpose::transient, {}, {}};
   for (const MenuEntry& entry : menu) {
@@ -19,8 +19,8 @@ DecisionRule rule_of_case(const core::Scene& scene, const Menu& menu) {
   return rule;
 }
 
-/// Whether the rules of an effect let a scene have it, with the keys that it is chosen with: what acts in general may
-/// not act in a sheared box.
+/// Whether the rules of an effect admit a scene, with the keys set by its choice: some effects cannot act in a sheared
+/// box.
 bool may_have(core::Scene scene, const Effect& effect, const std::string& law, const Surfaces& surfaces) {
   if (effect.set_keys) effect.set_keys(scene, surfaces);
   scene.effects[effect.role] = law;

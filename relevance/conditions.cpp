@@ -29,7 +29,7 @@ double greatest_slip(const Survey& survey) {
   return slip;
 }
 
-/// Speed of sound in water at 20 degC, m/s; other liquids lie within a third of it.
+/// Speed of sound in water at 20 degC, m/s; other liquids differ by at most a third.
 constexpr double sound_in_liquids = 1480;
 
 EffectRow equation_of_state(const core::Scene& scene, const Survey& survey) {

@@ -11,7 +11,7 @@ namespace {
 using State = EffectRow::State;
 using Kind = EffectRow::Kind;
 
-/// Whether the value itself is the top of a band, whose lower end leaves open what it means.
+/// Whether the value itself is the top of a band whose lower end leaves the decision open.
 bool is_uncertain(const EffectRow& row) {
   return row.band && row.band->most == row.value && !(row.threshold && row.band->least > *row.threshold);
 }
@@ -22,7 +22,7 @@ std::string plain(double value) {
   return value < least ? "less than 0.001" : two_digits(value);
 }
 
-/// A value of a row as its phrase has it.
+/// A value of a row, as its phrase needs it.
 std::string value_text(const EffectRow& row, double value) {
   constexpr double many = 10;  // as a share: "30 times"
   if (row.below) return plain(value);
@@ -40,7 +40,7 @@ std::string band_in_words(const EffectRow& row) {
   return in_words(row, fmt::format("{} to {}", percent(row.band->least), value_text(row, row.band->most)));
 }
 
-/// What a value is compared with.
+/// The limit that a value is compared with.
 std::string limit_text(const EffectRow& row, bool beyond) {
   if (row.below) return fmt::format("{} {:.4g}", beyond ? "below" : "not below", *row.threshold);
   return fmt::format("{} the {} that may be left out", beyond ? "more than" : "within", percent(*row.threshold));
@@ -54,7 +54,7 @@ void decide_steady(EffectRow& row) {
     row.reason += "; while the flow changes, " + (row.band ? band_in_words(row) : in_words(row));
 }
 
-/// What a run may reach beside the scales of the choice: told, and not switched.
+/// Values that a run can reach beyond the scales of the choice: reported, but without effect on the decision.
 void tell_greatest(EffectRow& row) {
   if (row.up_to && row.threshold && row.state == State::off && *row.up_to > *row.threshold)
     row.reason += fmt::format("; in places of a run up to {}", percent(*row.up_to));
@@ -80,29 +80,29 @@ void decide_by_number(EffectRow& row) {
   row.reason = band_in_words(row) + ", too uncertain to decide";
 }
 
-/// Bound on what leaving a row out neglects. What is always on has a number that chooses its law and bounds nothing,
-/// other than of a force.
+/// Bound on the error of neglecting a row. The number of an effect that is always on only selects its law; it is a
+/// bound only for a force.
 std::optional<double> bound_of(const EffectRow& row, bool always, bool transient) {
   if (!row.value || row.below || (always && !row.summed)) return row.neglected;
   return row.of_acceleration && !transient ? 0 : row.upper_end();
 }
 
-/// What leaving a row out adds to the sum: of a force its bound; else what is missing of drag or weight.
+/// Contribution of a neglected row to the sum: its bound for a force, else the missing share of drag or weight.
 double counted(const EffectRow& row, const std::optional<double>& bound) {
   return row.summed ? bound.value_or(0) : row.share_off.value_or(0);
 }
 
-/// What leaving a row out certainly adds to the sum: of what is undecided its part that is known, else nothing.
+/// Certain contribution of a neglected row to the sum: the known part of an undecided row, else nothing.
 double certainly(const EffectRow& row) {
   if (row.state == State::off) return counted(row, row.neglected);
   const bool known = row.state == State::undecided && row.summed && row.band->most != row.value;
   return known ? *row.value : 0;
 }
 
-/// Whether a run does without a row.
+/// Whether a run neglects a row.
 bool is_off(const EffectRow& row) { return row.state != State::on || !row.not_built.empty(); }
 
-/// A row as the case has it.
+/// Sets a row as the case decides it.
 void take_from_case(EffectRow& row, bool on, bool transient) {
   row.state = on ? State::on : State::off;
   const bool vanishes = row.of_acceleration && !transient;
@@ -124,7 +124,7 @@ void limit_sum(std::vector<EffectRow>& rows, const DecisionRule& rule) {
       (free ? sum : held) += share;
       if (free && (largest == nullptr || share > certainly(*largest))) largest = &row;
     }
-    // Where the case itself leaves out too much, no other effect makes up for it.
+    // If the case itself neglects too much, no other effect compensates for it.
     if (held <= rule.tolerance) sum += held;
     if (sum <= rule.tolerance || largest == nullptr) return;
     largest->state = State::on;

@@ -23,7 +23,7 @@ constexpr std::size_t longest_law_file = 10'000'000;
 constexpr std::array known_keys{"filetype", "version", "form", "constants",       "law",        "common",
                                 "tilt",     "band",    "fit",  "partition_bands", "git_commit", "created"};
 
-/// Reads a law file and keeps all that is wrong with it, each at its line and column.
+/// Reads a law file and collects its problems, each with its line and column.
 class DragFileReader {
  public:
   explicit DragFileReader(const std::filesystem::path& path)
@@ -58,7 +58,7 @@ class DragFileReader {
     if (!json_.is_object()) throw core::CaseError(std::vector{core::CaseProblem{name_, 1, 1, "expected an object"}});
   }
 
-  /// The keys of a law file have different names, so that the first quoted one is the key itself.
+  /// Reports a problem. The keys of a law file are unique, so the first quoted key is the right one.
   void wrong(const std::string& key, const std::string& message) {
     core::CaseProblem problem{name_, 0, 0, message};
     if (const std::size_t at = key.empty() ? std::string::npos : text_.find('"' + key + '"'); at != std::string::npos) {

@@ -1,4 +1,4 @@
-// Files of drag laws: what `polybed fit` and the studies of a law's uncertainty write.
+// Files of drag laws, written by `polybed fit` and by studies of a law's uncertainty.
 //
 //   {"filetype": "polybed drag law", "version": 1,
 //    "form": "cello", "constants": {"k1_linear": 128, ...},     or "law": "wen_yu", one of the menu
@@ -22,11 +22,10 @@ struct DragFile {
   std::string hash;  ///< of the file's text
 };
 
-/// Throws core::CaseError with file, line and column of what is wrong, all of it; core::FileError if the file cannot be
-/// read.
+/// Throws core::CaseError with file, line and column of every problem; core::FileError if the file cannot be read.
 [[nodiscard]] DragFile read_drag_file(const std::filesystem::path& path);
 
-/// What a run keeps of a law file, which may change later: path, hash, form and constants, as JSON.
+/// Record of a law file, which can change later, for a run: path, hash, form and constants, as JSON.
 [[nodiscard]] std::string record_of(const std::filesystem::path& path, const DragFile& file);
 
 /// The law of a file, without a partition.

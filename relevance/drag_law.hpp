@@ -1,5 +1,5 @@
-// The drag law of a case: its mean law, and the partition if it names one. A law is one of the menu, or a fitted or a
-// moved one of a file: "file:LAW.json".
+// The drag law of a case: its mean law, and its partition if it names one. A law comes from the menu, or is a fitted or
+// modified law in a file: "file:LAW.json".
 #pragma once
 
 #include <optional>
@@ -9,13 +9,13 @@
 
 namespace polybed::relevance {
 
-/// The file of a law that is in one; nothing if it is a law of the menu.
+/// The file that contains a law; nothing for a law in the menu.
 [[nodiscard]] std::optional<std::string> drag_file(const std::string& law);
 
-/// A law by the name that a case or a command gives. Throws std::invalid_argument for an unknown law or partition, and
-/// for a partition of what is no law of one size; core::CaseError with file, line and column for what is wrong with a
-/// law file, core::FileError if it cannot be read.
-/// \param law  of the menu, or "file:LAW.json"  \param partition  "none": the law alone
+/// A law by its name in a case or a command. Throws std::invalid_argument for an unknown law or partition, and for a
+/// partition of a law that is not for one size; core::CaseError with file, line and column for problems in a law file,
+/// core::FileError if it cannot be read.
+/// \param law  in the menu, or "file:LAW.json"  \param partition  "none": the law alone
 [[nodiscard]] closures::DragLaw drag_law_named(const std::string& law, const std::string& partition = "none",
                                                closures::Guard guard = closures::Guard::on);
 

@@ -1,5 +1,5 @@
-// An effect as both models see it: its name in the case file, its laws, what it needs, and the number that decides
-// whether it matters. The models add who makes it: dem/effects/maker.hpp, tfm/effects/maker.hpp.
+// An effect as both models use it: its name in the case file, its laws, its requirements, and the number that decides
+// whether it matters. The models add its makers: dem/effects/maker.hpp, tfm/effects/maker.hpp.
 #pragma once
 
 #include <functional>
@@ -16,42 +16,42 @@
 
 namespace polybed::relevance {
 
-/// Re_p beyond which lift and spin forces are no more than known by their order, also in sign
+/// Re_p above which lift and spin forces are known only by order of magnitude, and not even in sign
 /// (docs/reference/effects.md).
 inline constexpr double greatest_certain_reynolds = 100;
 
-/// Of particles.
+/// Surface properties of particles.
 struct Surfaces {
   double roughness, hamaker;  ///< m, J
 };
-/// What the case says of them, else what is usual: across a gas, or nothing, ten times the pull across a liquid.
+/// From the case, else usual values: across a gas, or without a fluid, ten times the attraction across a liquid.
 [[nodiscard]] Surfaces surfaces_of(const core::Scene& scene, const Survey& survey);
 
-/// What an effect is weighed by.
+/// Input for weighing an effect.
 struct Weighing {
   const core::Scene& scene;
   const Survey& survey;
-  const std::vector<EffectRow>& rows;  ///< of the effects weighed so far
+  const std::vector<EffectRow>& rows;  ///< for the effects weighed so far
 };
 
-/// A particle in a run that left the effect out.
+/// A particle in a run that neglects the effect.
 struct Encountered {
   double diameter, weight;          ///< m; less the buoyancy, N
   double fluid_density, viscosity;  ///< kg/m3, Pa s
   Surfaces surfaces;
   closures::Vec3 slip, vorticity;      ///< u_f - v, m/s; curl u_f, 1/s
-  std::optional<closures::Vec3> spin;  ///< 1/s; of a continuum not known: it differs by half the vorticity
+  std::optional<closures::Vec3> spin;  ///< 1/s; unknown for a continuum: it differs by half the vorticity
 
-  /// Whether laws of the slip are more than a guess here.
+  /// Whether laws of the slip are more than an estimate here.
   [[nodiscard]] bool certain() const;
 };
 
-/// What other code asks about laws, without knowing their names; told apart by its address.
+/// A property of laws that other code can query without their names; identified by its address.
 struct Trait {
   const char* what;
 };
 
-/// The laws of an effect, by name, that have a trait.
+/// The laws of an effect that have a trait, by name.
 struct LawsWith {
   const Trait* trait;
   std::vector<std::string> laws;
@@ -60,33 +60,33 @@ struct LawsWith {
 struct Effect {
   std::string role;                  ///< key in [effects]
   std::string help = {};             ///< one line
-  std::string absent = {};           ///< what the other model does without it, e.g. "reaches the TFM through a table"
-  std::vector<core::Law> laws = {};  ///< the first is the one that is weighed; "none" need not be listed
-  std::vector<core::Advice> advice = {};  ///< which law to take, the best first
-  std::vector<core::Rule> rules = {};     ///< what it needs, and what it cannot stand beside
-  std::string number = {};                ///< what decides, as a formula
+  std::string absent = {};           ///< effect on the other model without it, e.g. "reaches the TFM through a table"
+  std::vector<core::Law> laws = {};  ///< the first one is weighed; "none" need not be listed
+  std::vector<core::Advice> advice = {};  ///< recommended laws, the best first
+  std::vector<core::Rule> rules = {};     ///< requirements and exclusions
+  std::string number = {};                ///< the deciding number, as a formula
   std::string phrase = {};                ///< the same in plain words, with {} for the value: "2 % of" or "30 times"
-  /// The row of the table with its number; nothing if a scene has no such row. A function of its arguments alone.
+  /// The row of the table with its number; nothing if it does not apply to a scene. Depends on the arguments alone.
   std::function<std::optional<EffectRow>(const Weighing&, EffectRow)> weigh = {};
-  /// Why it cannot act beside what all effects have been weighed to be; empty: it can.
+  /// Why it cannot act together with the effects already weighed; empty: it can.
   std::function<std::string(const Weighing&)> idle = {};
-  /// Share of the weight, of what a run has met; nothing beyond the range of the law. Without it the monitor
-  /// evaluates nothing of this effect.
+  /// Share of the weight for a particle in a run; nothing outside the range of the law. Without this function the
+  /// monitor skips the effect.
   std::function<std::optional<double>(const Encountered&)> share = {};
-  /// Sets the keys that a law needs where the chooser has chosen it.
+  /// Sets the keys that a law needs when the chooser selects it.
   std::function<void(core::Scene&, const Surfaces&)> set_keys = {};
-  bool of_acceleration = false;  ///< vanishes in the mean of what is steady
+  bool of_acceleration = false;  ///< vanishes in the mean of a steady flow
   std::vector<LawsWith> traits = {};
 
   /// Whether a law has a trait; "table:a.h5" is the law "table:FILE".
   [[nodiscard]] bool law_has(const std::string& law, const Trait& trait) const;
-  /// The same of the law that a scene gives this role; false of a role that it leaves out or to the chooser.
+  /// The same for the law that a scene gives this role; false if it leaves the role out or to the chooser.
   [[nodiscard]] bool has(const core::Scene& scene, const Trait& trait) const {
     return law_has(core::law_of(scene, role), trait);
   }
 };
 
-/// An effect with the models that act on it.
+/// An effect with the models in which it acts.
 struct MenuEntry {
   const Effect* effect;
   std::string models;  ///< "tfm", "dem" or "tfm, dem"
@@ -94,25 +94,25 @@ struct MenuEntry {
 };
 using Menu = std::vector<MenuEntry>;
 
-/// Adds an effect of a model, or the model to an effect that is there.
+/// Adds an effect of a model, or adds the model to an existing effect.
 void add(Menu& menu, const Effect& effect, const std::string& model, const std::string& slot);
 
-/// What [effects] may name.
+/// The valid entries of [effects].
 [[nodiscard]] std::vector<core::Role> roles_of(const Menu& menu);
 
-/// The rules of its effects. \param models  of those that exactly these models act on, as MenuEntry has them; empty: all
+/// Rules of its effects. \param models  select those that exactly these models act on, as in MenuEntry; empty: all
 [[nodiscard]] std::vector<core::Rule> rules_of(const Menu& menu, const std::string& models = "");
 
-/// A row that is not yet weighed.
+/// A row before weighing.
 [[nodiscard]] EffectRow row_of(const MenuEntry& entry);
 
-/// Makes a row that of a force on particles: a share of the weight, which counts in the sum of what is left out.
+/// Makes a row a force on particles: its value is a share of the weight and counts in the sum of neglected effects.
 [[nodiscard]] EffectRow as_force(EffectRow row, const core::Scene& scene);
 
-/// The rows of all effects, in the order of the menu, then what is no role.
+/// The rows of all effects, in the order of the menu, then the conditions.
 [[nodiscard]] std::vector<EffectRow> weigh(const core::Scene& scene, const Survey& survey, const Menu& menu);
 
-/// What is no role: weight, pressure gradient, equation of state, coupling, walls, level; and what is not modelled.
+/// Rows without a role: weight, pressure gradient, equation of state, coupling, walls, level, and unmodelled effects.
 [[nodiscard]] std::vector<EffectRow> weigh_conditions(const core::Scene& scene, const Survey& survey);
 
 /// The row of a role; null if there is none.

@@ -13,7 +13,7 @@ namespace polybed::relevance {
 
 namespace {
 
-/// Of water at the outlet's pressure, where it is compressible; the tables are for 1 atm.
+/// Density of water at the outlet's pressure if it is compressible; the tables are for 1 atm.
 double water_density(const core::Fluid& fluid, double kelvin) {
   const double at_atmosphere = closures::water_density(kelvin);
   if (fluid.equation_of_state != core::Compressibility::tait) return at_atmosphere;

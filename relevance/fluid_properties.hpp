@@ -1,4 +1,4 @@
-// From the fluid that a case names to its density and viscosity, and its slip on the spheres of a scene.
+// Density and viscosity of the fluid in a case, and its slip on the spheres of a scene.
 #pragma once
 
 #include <span>
@@ -10,12 +10,12 @@ namespace polybed::relevance {
 
 /// Density and viscosity of the fluid.
 struct FluidConstants {
-  double density = 0;    ///< rho_f, kg/m3; of a compressible fluid rho_0, that at the outlet's pressure
+  double density = 0;    ///< rho_f, kg/m3; compressible: rho_0 at the outlet's pressure
   double viscosity = 0;  ///< mu, Pa s
 };
 
-/// Water and air from their temperature; any other fluid from the density and viscosity given, which also
-/// override. The density is that at the outlet's pressure. Throws core::CaseError that names the key and its range.
+/// Water and air from their temperature; any other fluid from the given density and viscosity, which also override. The
+/// density is at the outlet's pressure. Throws core::CaseError that names the key and its range.
 [[nodiscard]] FluidConstants fluid_constants(const core::Fluid& fluid);
 
 /// kg/m3: lighter than any liquid, denser than gases at some 50 bar.
@@ -24,7 +24,7 @@ inline constexpr double lightest_liquid = 100;
 /// Mean free path of an ideal gas at a pressure, m: closures/gas_slip.hpp with R T = P/rho.
 [[nodiscard]] double mean_free_path_at(double pressure, double density, double viscosity);
 
-/// Divisors of the drag on spheres of these diameters, m: Cunningham's at the outlet's pressure where the scene has
+/// Divisors of the drag on spheres of these diameters, m: Cunningham's at the outlet's pressure if the scene has
 /// effects.gas_slip, else 1.
 [[nodiscard]] std::vector<double> slip_divisors(const core::Scene& scene, std::span<const double> diameters);
 

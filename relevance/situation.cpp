@@ -35,7 +35,7 @@ std::vector<double> solids_volumes(const core::Scene& scene) {
   return volume;
 }
 
-/// The bed as it starts: its solids fraction and height.
+/// Measures the bed at its start: solids fraction and height.
 void measure_bed(const core::Scene& scene, Survey& s) {
   const auto& size = scene.column.size;
   const double across = scene.column.around_axis() ? 2 * size[0] : size[0];
@@ -52,7 +52,7 @@ void measure_bed(const core::Scene& scene, Survey& s) {
   for (const double v : volume) s.share.push_back(all > 0 ? v / all : 1.0 / double(volume.size()));
 }
 
-/// The scales that a run may reach, beside those it is weighed with.
+/// Finds the scales that a run can reach, besides those used for weighing.
 void find_scales_of_run(const core::Scene& scene, double fluid_density, Survey& s) {
   for (std::size_t a = 0; a < std::size_t(scene.column.dimensions); ++a) {
     if (scene.column.cells[a] <= 1) continue;
@@ -78,7 +78,7 @@ void find_velocities(const core::Scene& scene, Survey& s) {
   s.greatest_velocity = *std::max_element(all.begin(), all.end());
 }
 
-/// The fluid at the temperatures that the scene spans: the case's own first.
+/// The fluid at the temperatures in the scene; the case's own comes first.
 std::vector<core::Fluid> fluids_of(const core::Scene& scene) {
   std::vector<core::Fluid> fluids{scene.fluid};
   for (const double t : scene.chooser.temperature_range) {
@@ -105,7 +105,7 @@ class BedInFluid {
   void add_velocity(double velocity) {
     const double packed = 1 - std::max(survey_.solids_fraction, scene_.bed.solids_fraction);
     const auto f = [&](double eps, double re) { return closures::pure_drag_at(law_, eps, re); };
-    // A packed bed takes no more than what carries it: beyond, it expands.
+    // The flow in a packed bed is limited by the velocity that carries it; above, the bed expands.
     const double lifts = bed_.excess * bed_.gravity > 0 ? closures::carrying_velocity(f, bed_, packed) : velocity;
     if (velocity > 0) add(Zone::packed, std::min(velocity, lifts), packed);
     if (const auto known = scene_.chooser.voidage) {
@@ -157,7 +157,7 @@ class BedInFluid {
     if (scene_.column.sides == core::Boundary::wall) add(Zone::wall, velocity, voidage);
   }
 
-  /// One particle above the bed: carried up, or falling back.
+  /// One particle above the bed: carried upward, or falling back.
   void add_freeboard(double velocity) {
     for (std::size_t j = 0; j < diameter_.size(); ++j) {
       const Situation p = particle(j);
@@ -171,7 +171,7 @@ class BedInFluid {
     }
   }
 
-  /// How unlike the species are, where the bed is fluidised.
+  /// Records how different the species are where the bed is fluidised.
   void note_mixture(double velocity, double voidage, const std::vector<double>& f) {
     const double sauter = closures::sauter_diameter(survey_.share, diameter_);
     const double mean = closures::drag_of_mean(law_, voidage, fluid_.density * velocity * sauter / fluid_.viscosity,
@@ -202,7 +202,7 @@ class BedInFluid {
   closures::CarriedBed bed_{};
 };
 
-/// Species at rest on each other, with nothing around them.
+/// Species at rest on each other, without a fluid.
 std::vector<Situation> dry_bed(const core::Scene& scene) {
   std::vector<Situation> bed;
   for (const core::Species& species : scene.species) {

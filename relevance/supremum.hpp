@@ -1,4 +1,4 @@
-// The greatest value of a number over situations, with its place; of uncertain ones a band.
+// The greatest value of a number over situations, with its place; for uncertain numbers a band.
 #pragma once
 
 #include <algorithm>
@@ -14,12 +14,12 @@ namespace polybed::relevance {
 class Supremum {
  public:
   void add(const Situation& s, double value) { note(s, value, certain_); }
-  /// Where the formula is no more than a guess: between two values.
+  /// For a formula that is only an estimate: the value lies in a band.
   void add_uncertain(const Situation& s, NumberBand band) {
     note(s, band.most, uncertain_);
     if (!band_ || band.most > band_->most) band_ = band;
   }
-  /// Fills value, band, place and zones of a row; a certain value goes before.
+  /// Fills value, band, place and zones of a row; a certain value takes precedence.
   void fill(EffectRow& row) const {
     const auto& value = certain_ ? certain_ : uncertain_;
     if (value) {

@@ -1,4 +1,4 @@
-// Heat motion of small spheres.
+// Brownian motion of small spheres.
 #pragma once
 
 #include "closures/relevance.hpp"
@@ -11,7 +11,7 @@
 namespace polybed::relevance::effects {
 
 inline std::optional<EffectRow> weigh_brownian(const Weighing& by, EffectRow row) {
-  constexpr double room_temperature = 293.15;  // K, where the case names none
+  constexpr double room_temperature = 293.15;  // K, if the case gives none
   row = as_force(row, by.scene);
   if (!by.scene.fluid.temperature) row.not_built = "needs fluid.temperature; weighed at 20 degC";
   if (by.scene.bed.held) row.not_built = "dem.held holds the particles";

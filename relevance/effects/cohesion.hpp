@@ -1,4 +1,4 @@
-// Attraction of particles that touch or nearly do.
+// Attraction between particles in or near contact.
 #pragma once
 
 #include "closures/relevance.hpp"
@@ -16,7 +16,7 @@ inline std::optional<EffectRow> weigh_cohesion(const Weighing& by, EffectRow row
   for (const Situation& s : by.survey.touching())
     greatest.add(s, closures::van_der_waals_relevance(surfaces.hamaker, surfaces.roughness, s.reference()));
   greatest.fill(row);
-  constexpr double powder = 10;  // pull over weight from which beds are not the ones that drag laws are known of
+  constexpr double powder = 10;  // pull over weight above which drag laws of ordinary beds do not apply
   if (row.value.value_or(0) > powder) row.remark = "so cohesive a powder is outside the validated range";
   return row;
 }

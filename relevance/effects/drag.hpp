@@ -26,7 +26,7 @@ inline std::vector<core::Law> laws_of_drag() {
   return laws;
 }
 
-/// Where a law carries the settled bed, beside the fall of its particles; empty where nothing settles.
+/// The velocity that lifts the settled bed with this law, and the particles' fall speed; empty if nothing settles.
 inline std::string lifting_text(const Weighing& by) {
   const Survey& s = by.survey;
   std::vector<double> diameter;

@@ -10,7 +10,7 @@
 
 namespace polybed::relevance::effects {
 
-/// Over which the fluid's velocity changes by the slip, m: min(L/10, 10 d), as in the shear next to a wall.
+/// Distance over which the fluid's velocity changes by the slip, m: min(L/10, 10 d), as in the shear next to a wall.
 [[nodiscard]] inline double shear_length(const Situation& s) { return std::min(0.1 * s.width, 10 * s.diameter); }
 
 inline std::optional<EffectRow> weigh_fluid_stress(const Weighing& by, EffectRow row) {

@@ -15,7 +15,7 @@ namespace polybed::relevance::effects {
 
 inline std::optional<EffectRow> weigh_gas_slip(const Weighing& by, EffectRow row) {
   row = as_force(row, by.scene);
-  row.summed = false;  // it changes the drag: share_off
+  row.summed = false;  // it modifies the drag: see share_off
   if (!by.survey.is_gas) {
     row.neglected = 0;
     row.reason = "a liquid does not slip";
@@ -30,7 +30,7 @@ inline std::optional<EffectRow> weigh_gas_slip(const Weighing& by, EffectRow row
   return row;
 }
 
-/// Broken by a liquid; a fluid without known properties breaks a rule of its own.
+/// Broken if the fluid is a liquid; another rule covers a fluid without known properties.
 inline core::Broken slips_on_a_liquid(const core::Scene& scene) {
   if (!core::names_law(scene, "gas_slip") || !scene.fluid.present()) return {};
   try {

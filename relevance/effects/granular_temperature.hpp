@@ -1,4 +1,4 @@
-// Fluctuations that the kinetic stress rests on.
+// Velocity fluctuations, on which the kinetic stress is based.
 #pragma once
 
 #include <algorithm>
@@ -37,7 +37,7 @@ inline std::optional<EffectRow> weigh_granular_temperature(const Weighing& by, E
 inline constexpr Trait transported{"an equation for each species"};
 [[nodiscard]] inline bool is_transported(const core::Scene& scene);
 
-/// Names of the species that lose nothing in collisions, whose temperature in a local balance has no bound.
+/// Names of the species without losses in collisions: their temperature has no bound in a local balance.
 inline core::Broken elastic_species(const core::Scene& scene) {
   if (!solids_stress.has(scene, kinetic_theory) || is_transported(scene)) return {};
   std::string names;

@@ -38,7 +38,7 @@ inline std::optional<EffectRow> weigh_liquid_bridge(const Weighing& by, EffectRo
   return row;
 }
 
-/// Broken by a liquid; a fluid without known properties breaks a rule of its own.
+/// Broken if the fluid is a liquid; another rule covers a fluid without known properties.
 inline core::Broken bridges_in_a_liquid(const core::Scene& scene) {
   if (!core::names_law(scene, "liquid_bridge") || !scene.fluid.present()) return {};
   try {

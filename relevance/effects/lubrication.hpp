@@ -1,4 +1,4 @@
-// Fluid that is squeezed out between particles that meet.
+// Lubrication by fluid that approaching particles squeeze out.
 #pragma once
 
 #include <fmt/format.h>

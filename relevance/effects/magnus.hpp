@@ -1,4 +1,4 @@
-// The side force on spheres that spin.
+// The side force on spinning spheres.
 #pragma once
 
 #include "closures/magnus_rubinow_keller.hpp"
@@ -17,12 +17,12 @@ inline std::optional<EffectRow> weigh_magnus(const Weighing& by, EffectRow row) 
   return weigh_sheared(
       as_force(row, by.scene), by.survey,
       [&](const Situation& s, double slip) { return force(s, slip, 0.5 * s.shear); },
-      [&](const Situation& s, double slip) {  // touching at speeds up to the slip, which lets particles spin
+      [&](const Situation& s, double slip) {  // contact at speeds up to the slip makes particles spin
         return force(s, slip, 0.5 * s.shear + closures::spin_of_impact(s.slip, s.diameter));
       });
 }
 
-/// By the law of contact that the case names, else by the one that the chooser would take.
+/// Uses the contact law in the case, else the one that the chooser would select.
 inline std::string magnus_is_idle(const Weighing& by) {
   const std::string given = core::law_of(by.scene, "contact");
   const bool free = given == core::automatic || !by.scene.effects.contains("contact");

@@ -1,4 +1,4 @@
-// How the drag of a mean law is shared among species of different sizes.
+// Distribution of a mean law's drag among species of different sizes.
 #pragma once
 
 #include <algorithm>
@@ -17,7 +17,7 @@ inline std::vector<core::Law> laws_of_partition() {
   return laws;
 }
 
-/// Decided by what is dragged, fixed or suspended, and by whether the drag law can be shared: no number does.
+/// Decided by the state of the spheres, fixed or suspended, and by whether the drag law can be distributed.
 inline std::optional<EffectRow> weigh_partition(const Weighing& by, EffectRow row) {
   if (!by.survey.has_fluid || by.scene.species.size() < 2) return std::nullopt;
   const AdvisedDrag& drag = by.survey.drag;
@@ -33,7 +33,7 @@ inline std::optional<EffectRow> weigh_partition(const Weighing& by, EffectRow ro
   return row;
 }
 
-/// Broken by a drag that is no law of one size.
+/// Broken if the drag is not a law for one size.
 inline core::Broken shares_no_mean(const core::Scene& scene) {
   const std::string drag = core::law_of(scene, "drag"), partition = core::law_of(scene, "partition");
   if (!scene.effects.contains("partition") || partition == core::automatic) return {};

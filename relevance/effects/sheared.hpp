@@ -1,4 +1,4 @@
-// Weighs a force on particles that the fluid's shear makes, and which is certain up to a Reynolds number of the slip.
+// Weighs a force on particles from the fluid's shear, whose law is certain up to a Reynolds number of the slip.
 #pragma once
 
 #include <algorithm>
@@ -10,8 +10,8 @@
 
 namespace polybed::relevance {
 
-/// The greatest that a run may reach of a sheared particle: every slip up to the greatest, where the law is certain,
-/// under the shear of a cell. It is a scale, too wide to choose by.
+/// The greatest force that a sheared particle can meet in a run: any slip up to the greatest at which the law is
+/// certain, in the shear of a cell. It is an upper scale, too wide for the choice.
 template <class Relevance>
 double greatest_of_run(const Situation& s, const Survey& survey, Relevance&& of_slip) {
   if (!(survey.cell > 0)) return 0;
@@ -25,17 +25,17 @@ double greatest_of_run(const Situation& s, const Survey& survey, Relevance&& of_
 }
 
 /// A force as a share of the reference.
-/// \param of_slip  by the scales of the choice  \param in_run  by those of a run
+/// \param of_slip  on the scales of the choice  \param in_run  on the scales of a run
 template <class Relevance, class InRun>
 EffectRow weigh_sheared(EffectRow row, const Survey& survey, Relevance&& of_slip, InRun&& in_run) {
   Supremum greatest;
   for (const Situation& s : survey.situations) {
-    // The share of the lift falls with the slip: its greatest lies within the range, from a fifth of it.
+    // The lift's share falls with the slip: its greatest value lies inside the range, from a fifth of it.
     double value = 0;
     for (int n = 0; n < 33; ++n) {
       const double share = 0.2 + 0.8 * n / 32, found = of_slip(s, s.slip * share);
       value = std::max(value, found);
-      // Where the fastest are beyond the law's range, slower ones of the same zone are within it, under its shear.
+      // If the fastest particles exceed the law's range, slower ones in the same zone and shear are within it.
       if (share * s.particle_reynolds() <= greatest_certain_reynolds)
         row.up_to = std::max(row.up_to.value_or(0), found);
     }
@@ -49,7 +49,7 @@ EffectRow weigh_sheared(EffectRow row, const Survey& survey, Relevance&& of_slip
   return row;
 }
 
-/// Share of a weight, N, that a force has.
+/// Ratio of a force to a weight, N.
 [[nodiscard]] inline double share_of(const closures::Vec3& force, double weight) {
   return std::sqrt(closures::dot(force, force)) / weight;
 }

@@ -1,4 +1,4 @@
-// Pressure of the solids, packed or in collision.
+// Pressure of packed or colliding solids.
 #pragma once
 
 #include <algorithm>
@@ -7,7 +7,7 @@
 
 namespace polybed::relevance::effects {
 
-/// Shear rate times relaxation time, of the species that the fluid damps most; its place and zones go into the row.
+/// Shear rate times relaxation time for the species with the most damping; fills in the row's place and zones.
 inline std::optional<double> inertia_of_shear(const Weighing& by, EffectRow& row) {
   std::optional<double> least;
   for (const core::Species& species : by.scene.species) {
@@ -33,9 +33,9 @@ inline std::optional<EffectRow> weigh_solids_stress(const Weighing& by, EffectRo
     row.reason = without_a_fluid;
     return row;
   }
-  row.state = EffectRow::State::on;  // without any the model is ill-posed
+  row.state = EffectRow::State::on;  // without it the model is ill-posed
   row.threshold = 1;
-  if (by.survey.solids_fraction > 0.5) row.share_off = 1;  // what carries a packed bed; friction acts from there
+  if (by.survey.solids_fraction > 0.5) row.share_off = 1;  // it carries a packed bed; friction acts from there
   row.value = inertia_of_shear(by, row);
   if (!row.value) {
     row.reason = "too dilute to shear as a bed; friction acts above a solids fraction of 0.5";
