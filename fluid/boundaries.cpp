@@ -22,8 +22,8 @@ std::vector<core::ColumnFace> crossed_sides(const core::Scene& scene) {
   return sides;
 }
 
-/// Ghost layers as sign times the mirror image: about the boundary face for entries on cells (or faces of
-/// another axis), about the boundary face itself for entries on faces of this axis.
+/// Fills ghost layers with sign times the mirror image about the boundary face, for entries on cells or faces of any
+/// axis.
 void Boundaries::fill_beyond(Field& field, int axis, double sign_low, double sign_high, bool on_faces) const {
   const int n = grid_.cells[std::size_t(axis)];
   const Index s = grid_.stride(axis);
@@ -43,7 +43,7 @@ void Boundaries::fill_beyond(Field& field, int axis, double sign_low, double sig
   }
 }
 
-/// Ends of the vertical velocity: what leaves or enters goes on as it is beyond the distributor and the outlet.
+/// At the ends the vertical velocity continues unchanged beyond the distributor and the outlet.
 void Boundaries::copy_outward(Field& u) const {
   const Index s = grid_.stride(1);
   const int n = grid_.cells[1];
@@ -57,10 +57,10 @@ void Boundaries::copy_outward(Field& u) const {
     });
 }
 
-/// Whether the low end along an axis of the grid is the axis that the column is round about.
+/// Whether the low end along a grid axis is the symmetry axis of the column.
 bool Boundaries::begins_at_axis(int axis) const { return axis == 0 && grid_.metric && grid_.metric->around_axis; }
 
-/// What lies beyond the column's ends across one axis.
+/// Fills the ghosts beyond the column's ends across one axis.
 void Boundaries::fill_walls(const Ghosts& wanted, int axis) const {
   if (wanted.kind == Ghosts::Kind::joined) return;
   const double along_wall = wanted.slip == WallSlip::no_slip ? -1 : 1;

@@ -17,7 +17,7 @@ using core::Index;
 EquationOfState equation_of_state(const core::Fluid& fluid, double density) {
   if (fluid.equation_of_state == core::Compressibility::tait)
     return closures::TaitLiquid{density, fluid.outlet_pressure, fluid.tait_stiffness};
-  // Only the product R T = P_out/rho_0 counts.
+  // Only the product R T = P_out/rho_0 matters.
   const double temperature = fluid.temperature.value_or(1.0);
   return closures::IdealGas{fluid.outlet_pressure / (density * temperature), temperature};
 }

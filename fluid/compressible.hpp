@@ -1,4 +1,4 @@
-// A compressible fluid: density from the total pressure, and the continuity equation that the pressure follows.
+// A compressible fluid: density from the total pressure, and the continuity equation for the pressure.
 //
 //   (5) div J + kappa (dp/dt + U_f.grad P) = 0,   kappa = eps/(rho_f c^2),   P = P_out + p + rho_0 g (H - y)
 //
@@ -7,7 +7,7 @@
 //
 //   d(eps rho_f)/dt + div(rho_f Q) = 0,
 //
-// and that is how it is discretised: what leaves a cell enters the next, so mass is lost to the error in time only.
+// and is discretised in this form: outflow of one cell is inflow of the next, so mass has only the error in time.
 #pragma once
 
 #include <variant>
@@ -20,10 +20,10 @@
 
 namespace polybed::fluid {
 
-/// How density follows pressure.
+/// Density as a function of pressure.
 using EquationOfState = std::variant<closures::TaitLiquid, closures::IdealGas>;
 
-/// The law that a case names, through rho_0 at its outlet pressure; not for an incompressible fluid.
+/// The law in a case, through rho_0 at its outlet pressure; not for an incompressible fluid.
 /// \param density  rho_0, kg/m3
 [[nodiscard]] EquationOfState equation_of_state(const core::Fluid& fluid, double density);
 
@@ -36,20 +36,20 @@ class Compressible {
   Compressible(const core::Grid& grid, const Boundaries& boundaries, EquationOfState law, double outlet_pressure,
                double density, double gravity);
 
-  /// Makes the fields that only a compressible fluid has.
+  /// Creates the fields of a compressible fluid.
   void make_fields(FluidState& fluid) const;
-  /// rho_f and kappa from p and eps. False where P is none that the law knows (a gas at P <= 0, a torn liquid).
-  /// The ghosts of p are set.
+  /// Sets rho_f and kappa from p and eps. Returns false if the law has no density at P (a gas at P <= 0, a torn
+  /// liquid). Sets the ghosts of p.
   [[nodiscard]] bool set_density(FluidState& fluid) const;
-  /// Adds what the net pressure leaves of gravity where rho_f is not rho_0: -(1 - rho_0/rho_f) g.
+  /// Adds gravity on the deviation of rho_f from rho_0, which the net pressure lacks: -(1 - rho_0/rho_f) g.
   void add_gravity(const FluidState& fluid, core::FaceField& acceleration) const;
-  /// dp/dt from J, Q and dphi_j/dt: (5) solved for it.
+  /// Sets dp/dt from J, Q and dphi_j/dt with (5).
   void set_pressure_rate(const Interphase& solids, FluidState& fluid) const;
   /// P in the owned cells, Pa.
   [[nodiscard]] core::Field total_pressure(const FluidState& fluid) const;
   /// P, Pa, in a cell of height index j with net pressure p, Pa.
   [[nodiscard]] double total_pressure(double p, int j) const;
-  /// The shortest time in which sound crosses a cell, s, and the cell.
+  /// The shortest time for sound to cross a cell, s, and the cell.
   [[nodiscard]] std::pair<double, core::Index> sound_time(const FluidState& fluid) const;
 
  private:

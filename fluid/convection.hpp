@@ -1,11 +1,11 @@
-// Convection of a velocity by itself, in conservative form: what leaves one face's momentum arrives on the next.
+// Convection of a velocity by itself, in conservative form: momentum that leaves one face arrives at the next.
 //
 //   -[div(F U) - U div F] / phi
 //
-// F is the phase's flux of volume, phi its fraction. Between the cells of the momentum, each half of two cells of the
-// fractions, F is the mean of the fluxes of continuity of both (Harlow and Welch 1965), so that div F is the mean of
-// their -dphi/dt, and the sum of phi rho U over faces changes by what crosses the ends alone. A compressible fluid's
-// density is taken as even over a cell of momentum.
+// F is the phase's flux of volume, phi its fraction. A cell of the momentum consists of halves of two cells of the
+// fractions. Between two of them F is the mean of the fluxes in both continuity equations (Harlow and Welch 1965): div
+// F is then the mean of their -dphi/dt, and the sum of phi rho U over faces changes only by flow through the ends. A
+// compressible fluid's density is taken as uniform within a cell of momentum.
 #pragma once
 
 #include <algorithm>
@@ -15,15 +15,15 @@
 
 namespace polybed::fluid {
 
-/// A velocity with that of the open faces beside them on faces that a sloping wall closes: what flows along it keeps
-/// its momentum, although the wall is stairs of cells. Collective.
+/// A velocity that is extrapolated from open faces to faces closed by a sloping wall: flow along the wall keeps its
+/// momentum, although the wall consists of steps. Collective.
 [[nodiscard]] core::Field slipping(const core::Grid& grid, const Boundaries& boundaries, const core::Field& velocity,
                                    int axis);
 
 /// Sets the acceleration of a phase to its convection on its moving faces, m/s2, and to 0 elsewhere.
-/// \param limited   second order with limited slopes; else of first order, upwind
+/// \param limited   second order with limited slopes; else first order, upwind
 /// \param of_fluid  whether the outlet's faces move
-/// \param flux      F, m/s, ghosts of other cells included
+/// \param flux      F, m/s, with ghosts owned by other cells
 /// \param velocity  U, m/s, ghosts filled
 /// \param fraction  (axis, face, stride of the axis) -> phi > 0 on the face
 template <class Fraction>
@@ -52,7 +52,7 @@ void convection(const core::Grid& grid, const Boundaries& boundaries, bool limit
 #pragma GCC ivdep
       for (core::Index c = begin; c < end; ++c) to[c] /= fraction(a, c, s);
     });
-    // Half the momentum of a face on the outlet would lie beyond it: there the row stays (U.grad)U.
+    // Half the momentum cell of a face on the outlet would lie beyond it: that row keeps (U.grad)U.
     core::Box at_outlet = boundaries.moving_faces(axis, of_fluid);
     at_outlet.lo[a] = inside.hi[a];
     core::subtract_convection(grid, velocity, axis, at_outlet, rate);

@@ -9,16 +9,16 @@
 
 namespace polybed::fluid {
 
-/// Share of the mean weight of the four cells around an edge that transmits shear from the one pair of faces to the
-/// other: all of it.
+/// Share of the mean weight of the four cells around an edge that transmits shear between the two pairs of faces: all
+/// of it.
 struct WholeEdge {
   [[nodiscard]] double operator()(core::Index, core::Index, core::Index) const { return 1; }
 };
 
-/// The same of a phase whose fraction may end there: the harmonic mean of the fractions of the four cells over their
-/// plain mean, 16/(sum phi sum 1/phi). 1 where phi is even, to second order where it is smooth; 0 at a free surface,
-/// which is pulled at by nothing. Without it a face with hardly any mass hangs on dense neighbours, and its velocity,
-/// which costs nothing, shears them. Fractions not above 1e-60, whose products would be lost, count as 0.
+/// The same for a phase whose fraction can end there: the harmonic mean of the fractions in the four cells over their
+/// arithmetic mean, 16/(sum phi sum 1/phi). It is 1 for uniform phi, to second order for smooth phi, and 0 at a free
+/// surface, which is free of stress. Otherwise a face with hardly any mass would follow dense neighbours and its
+/// velocity would shear them. Fractions up to 1e-60, whose products would underflow, count as 0.
 class SolidEdge {
  public:
   explicit SolidEdge(const core::Field& fraction) : phi_(fraction.data()) {}
@@ -36,10 +36,10 @@ class SolidEdge {
   const double* phi_;
 };
 
-/// div(w (grad U + grad U^T - 2/3 div U I)) on the faces of the axis a, w a weight on cells (eps of the fluid, phi_j
-/// times viscosity of a solid). Around an axis, the stress along the circles pulls inwards too. Ghosts of both must be
-/// filled; fields must outlive this. All is inlined by force: with the metric of a round column g++ would call it cell
-/// by cell, at the least width of vectors.
+/// div(w (grad U + grad U^T - 2/3 div U I)) on the faces of the axis a, with a weight w on cells (eps for the fluid,
+/// phi_j times viscosity for a solid). Around an axis the hoop stress also pulls inwards. Ghosts of both must be
+/// filled; fields must outlive this. Everything is always_inline: otherwise g++, with the metric of a round column,
+/// would call it cell by cell, at the least width of vectors.
 template <std::size_t dimensions, std::size_t a, class Metric, class Edge = WholeEdge>
 class FaceStress {
  public:
@@ -53,7 +53,7 @@ class FaceStress {
     }
   }
 
-  /// On face c: of the weight times 1/(m s).
+  /// Divergence on face c, in units of the weight times 1/(m s).
   [[nodiscard, gnu::always_inline]] double divergence(core::Index c) const {
     double force = (through(c) - through(c - stride_[a])) * per_length_[a];
     core::for_each_axis<dimensions>([&](auto b) __attribute__((always_inline)) {

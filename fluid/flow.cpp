@@ -76,7 +76,7 @@ void Flow::begin(double t, const ParticlePhase& particles) {
   }
   clear(velocity_change_);
   hold();
-  clear(own_flux_);          // an impulse carries nothing on
+  clear(own_flux_);          // an impulse transports nothing
   constexpr double any = 1;  // s: it has no duration
   FlowStep step;
   close_pressure(t, any, step);
@@ -120,8 +120,8 @@ void Flow::set_density() {
     throw core::NumericsError("the pressure of the fluid has left the range of its equation of state");
 }
 
-/// What passed the ends in a step, at the density that its equations had; then the density is that of the new pressure.
-/// No particle crosses an end of a column with a compressible fluid: J is the fluid's own flux there.
+/// Adds the mass that passed the ends in a step, at the density in its equations; then updates the density to the new
+/// pressure. No particle crosses an end of a column with a compressible fluid: J is the fluid's own flux there.
 void Flow::finish_compression(double dt, FlowStep& step) {
   const MassFlow flow = mass_flow(grid_, boundaries_, fluid_, fluid_.flux);
   step.mass_in = flow.in * dt;
@@ -150,7 +150,7 @@ void Flow::set_inlet(double t) {
   core::hold_closed(grid_, fluid_.velocity);
 }
 
-/// a, and dt (U.grad)U.
+/// Computes a, and dt (U.grad)U.
 void Flow::find_acceleration(double dt, const ParticlePhase& particles) {
   boundaries_.fill_velocity(fluid_.velocity, WallSlip::no_slip);
   inlet_.extend(fluid_.velocity);
@@ -178,7 +178,7 @@ void Flow::find_own_flux(const ParticlePhase& particles) {
   boundaries_.fill(std::span(ghosts).first(dimensions));
 }
 
-/// dU without the change of pressure, J that belongs to it, and B.
+/// Computes dU without the change of pressure, the corresponding J, and B.
 template <class Density>
 void Flow::push(const Density& density, double dt, const ParticlePhase& particles) {
   for (int axis = 0; axis < grid_.dimensions; ++axis) {
@@ -205,15 +205,15 @@ void Flow::push(const Density& density, double dt, const ParticlePhase& particle
   }
 }
 
-/// Where a round wall closes faces nothing moves, whatever the pressure.
+/// Nothing moves at faces closed by a round wall, whatever the pressure.
 void Flow::hold() {
   core::hold_closed(grid_, velocity_change_);
   core::hold_closed(grid_, fluid_.flux);
   core::hold_closed(grid_, per_inertia_);
 }
 
-/// What a fluid that yields to pressure adds to the constraint, over dt: div J = -kappa dP/dt - (Q.grad) rho_f/rho_f.
-/// The last is taken between faces and cell, so that with div J it is div(rho_f Q): what leaves a cell enters the next.
+/// Adds compressibility to the constraint, over dt: div J = -kappa dP/dt - (Q.grad) rho_f/rho_f. The last term is
+/// differenced between faces and cell: with div J it equals div(rho_f Q), and outflow of a cell is inflow of the next.
 void Flow::add_compression(double dt) {
   const LocalDensity density{fluid_.compression.density.data()};
   core::with_metric(grid_, [&](const auto& metric) {
@@ -236,7 +236,7 @@ void Flow::add_compression(double dt) {
   });
 }
 
-/// B as the solver takes it, with the source; the faces of B itself that a round wall closes are held.
+/// B for the solver, with the source; sets B itself to 0 at faces closed by a round wall.
 const core::FaceField& Flow::open_mobility() {
   if (!grid_.metric) return mobility_;
   open_mobility_ = mobility_;
@@ -246,7 +246,7 @@ const core::FaceField& Flow::open_mobility() {
   return open_mobility_;
 }
 
-/// The change of pressure that makes J what the constraint asks for: -dt div(B grad dp) [+ kappa dp/dt] = -div J.
+/// Solves for the pressure change with which J satisfies the constraint: -dt div(B grad dp) [+ kappa dp/dt] = -div J.
 void Flow::close_pressure(double t, double dt, FlowStep& step) {
   boundaries_.join(fluid_.flux, mobility_);
   core::divergence(grid_, fluid_.flux, source_);
@@ -261,7 +261,7 @@ void Flow::close_pressure(double t, double dt, FlowStep& step) {
         fmt::format("t = {:.6g} s: the pressure of the fluid was not found, residual {:.2e}", t + dt, result.residual));
 }
 
-/// The change of pressure acts.
+/// Applies the change of pressure.
 void Flow::correct(double dt) {
   gradient_of(change_, gradient_change_);
   for (int axis = 0; axis < grid_.dimensions; ++axis) {
@@ -277,7 +277,7 @@ void Flow::correct(double dt) {
   core::for_each_row(grid_, [&](Index begin, Index end) {
     for (auto c = std::size_t(begin); c < std::size_t(end); ++c) fluid_.pressure[c] += change_[c];
   });
-  set_gradient();  // from the sum, so that a run taken up again has the same bits
+  set_gradient();  // from the sum, so that a resumed run has the same bits
   boundaries_.join(fluid_.velocity, fluid_.flux);
 }
 
@@ -306,7 +306,7 @@ void Flow::gradient_of(const Field& p, core::FaceField& out) {
   boundaries_.join(out);
 }
 
-/// The mean of the open faces next to them along their axis, as on walls that follow the grid.
+/// The mean over the adjacent open faces along their axis, as on walls that follow the grid.
 void Flow::gradient_on_closed(core::FaceField& out) {
   std::array<Ghosts, 3> ghosts{};
   for (std::size_t a = 0; a < 3; ++a) ghosts[a] = {Ghosts::Kind::joined, &out[a]};
@@ -340,9 +340,9 @@ double Flow::courant(double dt) const {
       core::for_each_row(grid_, core::owned_faces(grid_, axis), [&](Index begin, Index end) {
         for (Index c = begin; c < end; ++c) {
           double crossed = std::abs(u[c]) * dt / h;
-          if constexpr (Metric::radial)  // of the smaller of the cells beside the face
+          if constexpr (Metric::radial)  // the smaller of the two adjacent cells
             crossed *= metric.open(a, c) * std::max(metric.per_volume(c - s), metric.per_volume(c));
-          most = crossed <= most ? most : crossed;  // turned round, so that what is not a number stays
+          most = crossed <= most ? most : crossed;  // written so that NaN is kept
         }
       });
     }

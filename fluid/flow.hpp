@@ -1,4 +1,4 @@
-// The averaged fluid between particles, step by step: T(1.10) with T(1.16), the same terms as in fluid/momentum.hpp,
+// Averaged fluid between particles, step by step: T(1.10) with T(1.16), the same terms as in fluid/momentum.hpp,
 // two-way coupled with the particles, implicitly in their drag.
 //
 //   (m + K) dU = dt [m a - eps G - I/dt - C (U.grad)U] - dt (eps + S) dG,   m = eps rho_f
@@ -10,8 +10,8 @@
 //
 //   B = (eps + Y)(eps + S)/(m + K) + Q.
 //
-// Particles that answered to the old pressure only would have to be pushed apart by the new one: the ratio of what they
-// displace to what they weigh, phi rho_f/(eps rho_p), would multiply the error at every step, whatever its length.
+// Otherwise particles that had responded only to the old pressure would be pushed apart by the new one: the ratio of
+// displaced to particle mass, phi rho_f/(eps rho_p), would multiply the error at every step, whatever its length.
 #pragma once
 
 #include <optional>
@@ -26,23 +26,23 @@
 
 namespace polybed::fluid {
 
-/// What a step of the fluid took.
+/// Report of a step of the fluid.
 struct FlowStep {
   int iterations = 0;   ///< of the linear solver
   double residual = 0;  ///< its true relative residual
-  double courant = 0;   ///< greatest |U| dt/h, and of the viscous stress 2 nu dt sum(1/h^2)
-  double mass_in = 0;   ///< kg of a compressible fluid that came in through the distributor
-  double mass_out = 0;  ///< the same, out through the outlet
+  double courant = 0;   ///< greatest |U| dt/h, and for the viscous stress 2 nu dt sum(1/h^2)
+  double mass_in = 0;   ///< kg of a compressible fluid that entered through the distributor
+  double mass_out = 0;  ///< the same for the outlet
 };
 
 class Flow {
  public:
-  /// Collective, as is all that changes it.
+  /// Collective, as are all functions that change it.
   /// \param grid  the column or this rank's block of it  \param tolerance  relative residual of the pressure
   Flow(const core::Scene& scene, const core::Grid& grid, double tolerance);
 
-  /// A fluid that enters at time t, s, between particles that do not answer: its velocity is made to fit the inlet and
-  /// the particles' flux by an impulse of the pressure, which is then forgotten.
+  /// Starts the fluid at time t, s, between particles that do not respond: an impulse of the pressure, which is then
+  /// discarded, fits its velocity to the inlet and the particles' flux.
   void begin(double t, const ParticlePhase& particles);
   /// One step from t to t + dt, s. Throws core::NumericsError with a remedy if the equations cannot be solved, or dt is
   /// too long for explicit convection and stress.
@@ -54,17 +54,17 @@ class Flow {
   [[nodiscard]] const Boundaries& boundaries() const { return boundaries_; }
   [[nodiscard]] const Inlet& inlet() const { return inlet_; }
   [[nodiscard]] const relevance::FluidConstants& constants() const { return constants_; }
-  /// G, Pa/m, on all faces: on those that are held that of their neighbour inside.
+  /// G, Pa/m, on all faces; held faces have the value of their neighbour inside.
   [[nodiscard]] const core::FaceField& gradient() const { return gradient_; }
   /// dG and dU of the last step, and dt (U.grad)U in it, m/s.
   [[nodiscard]] const core::FaceField& gradient_change() const { return gradient_change_; }
   [[nodiscard]] const core::FaceField& velocity_change() const { return velocity_change_; }
   [[nodiscard]] const core::FaceField& convected() const { return convected_; }
-  /// Of a compressible fluid.
+  /// Null for an incompressible fluid.
   [[nodiscard]] const Compressible* compressible() const { return compressible_ ? &*compressible_ : nullptr; }
-  /// The pressure's gradient from the pressure: after the state was set from outside.
+  /// Recomputes the pressure's gradient from the pressure, after the state was set from outside.
   void set_gradient() { gradient_of(fluid_.pressure, gradient_); }
-  /// Begins anew: what comes next does not depend on earlier solves.
+  /// Starts anew: further solves do not depend on earlier ones.
   void forget() { solver_.forget(); }
 
  private:
@@ -91,20 +91,20 @@ class Flow {
   Inlet inlet_;
   relevance::FluidConstants constants_;
   double gravity_, tolerance_;  ///< m/s2; of the pressure's residual
-  bool viscous_;                ///< with a stress of its own
-  bool limited_;                ///< convection is of second order, with a limiter
+  bool viscous_;                ///< with a viscous stress
+  bool limited_;                ///< convection is second order, with a limiter
   std::optional<Compressible> compressible_;
   core::PoissonSolver solver_;
   FluidState fluid_;
   core::FaceField convected_, acceleration_, velocity_change_, gradient_, gradient_change_;
-  core::FaceField per_inertia_;    ///< (eps + S)/(m + K), 1/(kg/m3): what dU gains by -dt dG
+  core::FaceField per_inertia_;    ///< (eps + S)/(m + K), 1/(kg/m3): factor of -dt dG in dU
   core::FaceField mobility_;       ///< B, m3/kg
-  core::FaceField open_mobility_;  ///< of a round column, times the open share of faces
+  core::FaceField open_mobility_;  ///< for a round column, times the open share of faces
   core::FaceField own_flux_;       ///< eps U, m/s
-  core::Field source_, change_;    ///< of the pressure's equation: right-hand side, 1/s2, and solution, Pa
+  core::Field source_, change_;    ///< right-hand side, 1/s2, and solution, Pa, of the pressure equation
   core::Field shift_;              ///< kappa/dt^2; empty without compression
-  core::Field with_ghosts_;        ///< a pressure whose gradient is being taken
-  double per_square_;              ///< of the viscous stress, see viscous_rate, 1/m2
+  core::Field with_ghosts_;        ///< a pressure during computation of its gradient
+  double per_square_;              ///< for the viscous stress, see viscous_rate, 1/m2
 };
 
 }  // namespace polybed::fluid

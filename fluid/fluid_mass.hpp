@@ -1,4 +1,4 @@
-// The mass of a compressible fluid in the column, and the account of what has flowed in and out.
+// The mass of a compressible fluid in the column, and its inflow and outflow.
 #pragma once
 
 #include "fluid/boundaries.hpp"
@@ -6,8 +6,8 @@
 
 namespace polybed::fluid {
 
-/// Mass flow, kg/s: in through the distributor and where it enters through a side, out through the outlet and where it
-/// leaves through a side.
+/// Mass flow, kg/s: in through the distributor and inflow parts of the sides, out through the outlet and outflow parts
+/// of the sides.
 struct MassFlow {
   double in = 0, out = 0;
 };
@@ -21,19 +21,19 @@ struct MassFlow {
 /// Mass in the owned cells, kg, sum of eps rho_f.
 [[nodiscard]] double fluid_mass(const core::Grid& grid, const FluidState& fluid);
 
-/// What was in the column at the start and what has passed its ends since, kg.
+/// Mass in the column at the start, and mass that has passed its ends since, kg.
 struct MassAccount {
   double start = 0, in = 0, out = 0;
-  /// (start + in - out - stored) relative to the larger of what was there and what came in.
+  /// (start + in - out - stored) relative to the larger of start and inflow.
   [[nodiscard]] double error(double stored) const;
 };
 
-/// Keeps the account over the steps of an integration; the flow is taken as linear in time within a step.
+/// Integrates the account over steps; the flow is taken as linear in time within a step.
 class FluidLedger {
  public:
-  /// The account stands so at time t, s; the flow from then on begins with `flow`.
+  /// Starts with this account and flow at time t, s.
   void begin(double t, const MassAccount& account, const MassFlow& flow);
-  /// A step has ended at time t, s, with a flow.
+  /// Ends a step at time t, s, with this flow.
   void advance(double t, const MassFlow& flow);
   /// The account at a time within the last step, s.
   [[nodiscard]] MassAccount at(double t) const;

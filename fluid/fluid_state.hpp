@@ -1,14 +1,14 @@
-// The averaged fluid: its fields.
+// Fields of the averaged fluid.
 #pragma once
 
 #include "core/numerics/field.hpp"
 
 namespace polybed::fluid {
 
-/// Least voidage that a velocity is divided by; below it the fluid's velocity is understated, not singular.
+/// Least voidage as a divisor of velocities; below it the fluid's velocity is underestimated but not singular.
 constexpr double voidage_floor = 0.05;
 
-/// What a compressible fluid has besides; all empty if the fluid is incompressible.
+/// Additional fields of a compressible fluid; all empty if it is incompressible.
 struct Compression {
   core::Field density;        ///< rho_f of the total pressure, kg/m3, cells and ghosts
   core::Field kappa;          ///< eps/(rho_f c^2) of (5), 1/Pa, owned cells

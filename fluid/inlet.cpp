@@ -13,7 +13,7 @@ namespace polybed::fluid {
 
 using core::Index;
 
-/// The first point later than a time: tables may be long.
+/// The first point later than a time; a binary search, as tables can be long.
 std::vector<std::pair<double, double>>::const_iterator Ramp::after(double t) const {
   return std::upper_bound(table_.begin(), table_.end(), t,
                           [](double time, const auto& point) { return time < point.first; });
@@ -59,7 +59,7 @@ double Ramp::greatest() const {
 
 namespace {
 
-/// Share of the column's cell m of an axis that lies in [from, to]; of a ring, by its area.
+/// Share of the column's cell m along an axis that lies in [from, to]; for a ring, by its area.
 double overlap(const core::Grid& grid, int axis, int m, double from, double to) {
   const double h = grid.spacing[std::size_t(axis)];
   const double low = std::max(from, m * h), high = std::min(to, (m + 1) * h);
@@ -67,8 +67,8 @@ double overlap(const core::Grid& grid, int axis, int m, double from, double to) 
   return std::max(0.0, high - low) / h * (ring ? (low + high) / ((2 * m + 1) * h) : 1.0);
 }
 
-/// By what the shares of a part of a round column are multiplied, so that with the open shares of its faces they have
-/// the part's own area. 0 where the part lies on closed cells alone.
+/// Factor for the shares of a part of a round column, so that with the open shares of its faces they have the part's
+/// own area. 0 if the part contains only closed cells.
 double scale_of_part(const core::Grid& grid, const std::vector<double>& from, const std::vector<double>& to,
                      int level) {
   if (!grid.metric || from.empty()) return 1;
@@ -131,7 +131,7 @@ Inlet::Inlet(const core::Grid& grid, const core::Scene& scene) : grid_(grid) {
   for (Part& part : parts_) part.mean_share = mean_over_bottom(part.share);
 }
 
-/// \param inward  1 of what enters, -1 of what leaves
+/// \param inward  1 for inflow, -1 for outflow
 template <class Side>
 void Inlet::add_port(const Side& part, double inward, Carries carries) {
   const int axis = axis_of(part.at);

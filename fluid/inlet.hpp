@@ -1,5 +1,5 @@
-// What flows in through the distributor: a superficial velocity in time, and jets over parts of the bottom; and what
-// flows through parts of the sides.
+// Inflow through the distributor: a superficial velocity over time, and jets over parts of the bottom; also flow
+// through parts of the sides.
 #pragma once
 
 #include <utility>
@@ -10,11 +10,11 @@
 
 namespace polybed::fluid {
 
-/// A velocity in time: linear between the points of a table, constant beyond.
+/// A velocity over time: linear between the points of a table, constant beyond.
 class Ramp {
  public:
   Ramp() = default;
-  /// \param factor  of all velocities: -1 for what flows down
+  /// \param factor  for all velocities: -1 for downward flow
   explicit Ramp(std::vector<std::pair<double, double>> table, double factor = 1) : table_(std::move(table)) {
     for (auto& point : table_) point.second *= factor;
   }
@@ -33,16 +33,16 @@ class Ramp {
   std::vector<std::pair<double, double>> table_;
 };
 
-/// Share of each of the block's faces at an end or side of the column, row by row, that lies in a part of it: from and
-/// to as of a jet; empty: all.
+/// Share of each of the block's faces at an end or side of the column, row by row, that lies in a part of it; from and
+/// to as for a jet, empty: all.
 [[nodiscard]] std::vector<double> face_shares(const core::Grid& grid, const std::vector<double>& from,
                                               const std::vector<double>& to,
                                               core::ColumnFace at = core::ColumnFace::bottom);
 
-/// The bottom of a column, parts of its sides, and its top where the flow is given there too: the same volume, spread
-/// evenly. A jet takes its part of a face's area by overlap, so that what flows in does not depend on the grid; the
-/// rest of the face has the velocity of the distributor, or is wall in a side. Solids that are fed through the bottom
-/// or a side are a part of the flux of the mixture and add to it.
+/// Flow through the bottom of a column, parts of its sides, and its top if the flow is given there too: the same
+/// volume, spread evenly. A jet covers its part of a face's area by overlap, so that the inflow does not depend on the
+/// grid. The rest of the face has the velocity of the distributor or, in a side, is a wall. Solids fed through the
+/// bottom or a side are part of the flux of the mixture and add to it.
 class Inlet {
  public:
   Inlet() = default;
@@ -55,7 +55,7 @@ class Inlet {
   void take_solids_out(double t, const core::Field& voidage, core::FaceField& flux) const;
   /// Sets its rate, m/s2, there.
   void set_rate(double t, core::FaceField& rate) const;
-  /// Goes on beyond the sides with a velocity as it is where something flows through them.
+  /// Continues a velocity unchanged beyond the sides where something flows through them.
   void extend(core::FaceField& velocity) const;
   /// Calls body(axis, face, cell inside) for the faces of the sides where the flux is given.
   template <class Body>
@@ -67,10 +67,10 @@ class Inlet {
   }
   /// Mean over the bottom, m/s.
   [[nodiscard]] double mean_velocity(double t) const;
-  /// The greatest speed of any part of the bottom, and of any part at all, at any time, m/s.
+  /// The greatest speed in any part of the bottom, and in any part at all, at any time, m/s.
   [[nodiscard]] double greatest_below() const;
   [[nodiscard]] double greatest() const;
-  /// Whether there is a time at which nothing flows.
+  /// Whether the flow is zero at some time.
   [[nodiscard]] bool shuts() const;
   /// Times at which a rate jumps: the integrator must stop there.
   [[nodiscard]] std::vector<double> breakpoints() const;
@@ -86,7 +86,7 @@ class Inlet {
     double mean_share;
     Carries carries;
   };
-  /// A part of a side, with the block's faces that it covers.
+  /// A part of a side, with the faces of the block that it covers.
   struct Port {
     core::ColumnFace at;
     Ramp ramp;          ///< along the axis
@@ -104,7 +104,7 @@ class Inlet {
   core::Grid grid_;
   std::vector<Part> parts_;  ///< the distributor first
   std::vector<Port> ports_;
-  double above_ = 0;  ///< what is even over the top, over the mean of the bottom; 0: not given there
+  double above_ = 0;  ///< uniform part at the top, over the mean of the bottom; 0: not given there
 };
 
 }  // namespace polybed::fluid

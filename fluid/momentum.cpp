@@ -68,7 +68,7 @@ void flux_rate_with(const Density& density, const core::Grid& grid, const Bounda
                     const Interphase& solids, const FluidState& fluid, const core::FaceField& acceleration,
                     FluxRate& out) {
   const double* eps = fluid.voidage.data();
-  const double alone = solids.carry_pressure ? 0 : 1;  // the fluid takes the whole gradient, not its share
+  const double alone = solids.carry_pressure ? 0 : 1;  // the fluid has the whole gradient, not its share
   for (int axis = 0; axis < grid.dimensions; ++axis) {
     const auto a = std::size_t(axis);
     const Index s = grid.stride(axis);

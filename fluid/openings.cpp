@@ -30,7 +30,7 @@ Openings::Openings(const core::Grid& grid, const core::Scene& scene) : grid_(gri
     }
 }
 
-/// Gives a gate those of the block's faces for which covered(n, face) is true, the n-th of its end or side.
+/// Adds to a gate the block's faces for which covered(n, face) is true, where n counts the faces of its end or side.
 template <class Covered>
 void Openings::cover(Gate& gate, Covered&& covered) const {
   std::vector<Part> whole(gate.parts.size());
@@ -45,7 +45,7 @@ void Openings::cover(Gate& gate, Covered&& covered) const {
   });
 }
 
-/// All feeds of one species at one end or side. On a face that two of them share the velocity is the mean of theirs.
+/// Adds all feeds of one species at one end or side. A face in two of them has the mean of their velocities.
 void Openings::add_gate(const core::Scene& scene, std::size_t species, core::ColumnFace at) {
   Gate gate{species, at, {}, {}, {}};
   const double along = side_of(at) == 0 ? 1 : -1;

@@ -1,5 +1,5 @@
-// The door between the averaged fluid and particles that are followed one by one: all that a step of the fluid has to
-// know of them, as sums over particles on its own faces. Solids that are continua come through interphase.hpp.
+// The interface between the averaged fluid and individual particles: all data of theirs for a step of the fluid, as
+// sums over particles on its faces. Continuous solids use interphase.hpp.
 #pragma once
 
 #include "core/numerics/field.hpp"
@@ -7,21 +7,21 @@
 namespace polybed::fluid {
 
 /// Per volume of a cell, psi; w: weight of a particle on a face. Over an interval dt the particles have moved through a
-/// frozen fluid and got the impulse I from it by drag and added mass. What the fluid's change dU, its own convection
-/// (U.grad)U and a change dG of the pressure's gradient do to a particle of velocity U_p and inertia M = m + m_a
-/// follows in one kick at the end of the interval,
+/// frozen fluid and received the impulse I from it by drag and added mass. The fluid's change dU, its own convection
+/// (U.grad)U and a change dG of the pressure's gradient act on a particle of velocity U_p and inertia M = m + m_a in
+/// one impulse at the end of the interval,
 ///
 ///   dU_p = g dU + (m_a/M) s (dU + dt (U.grad)U) - (V/M) s dt dG,   g = 1 - exp(-k dt/M),  s = g M/(k dt),
 ///
-/// k being the drag over the slip. The sums below are what the fluid's momentum and the flux of volume see of it.
+/// with k the drag over the slip. The sums below are its effect on the fluid's momentum and on the flux of volume.
 struct ParticlePhase {
   core::Field voidage;         ///< eps in cells
   core::FaceField voidage_on;  ///< eps on faces
   core::FaceField flux;        ///< sum w V U_p: volume flux of the particles, m/s
-  core::FaceField impulse;     ///< sum w I: what the fluid has lost to them since its last step, kg/(m2 s)
-  core::FaceField drag;        ///< sum w m [g + (m_a/M) s], kg/m3: times dU, what it loses besides
+  core::FaceField impulse;     ///< sum w I: momentum that the fluid has lost to them since its last step, kg/(m2 s)
+  core::FaceField drag;        ///< sum w m [g + (m_a/M) s], kg/m3: times dU, the further loss
   core::FaceField follow;      ///< sum w V [g + (m_a/M) s]: times dU, flux that the particles gain
-  core::FaceField slide;       ///< sum w V [1 - (m/M) s]: times dt dG, what the fluid gains by slower particles
+  core::FaceField slide;       ///< sum w V [1 - (m/M) s]: times dt dG, the fluid's gain from slower particles
   core::FaceField yield;       ///< sum w V^2 s/M, m3/kg: times -dt dG, flux that the particles gain
   core::FaceField carry;       ///< sum w m (m_a/M) s, kg/m3: times dt (U.grad)U; empty without added mass
   core::FaceField carry_flux;  ///< sum w V (m_a/M) s likewise

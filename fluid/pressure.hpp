@@ -2,7 +2,7 @@
 //
 //   -div(B grad p) = -(div free + w div J),      dJ/dt = free - B grad p,    dU_j/dt = a_j - grad p / rho_j
 //
-// w > 0 (Baumgarte) drives what is left of div J, from inexact solves, back to zero.
+// w > 0 (Baumgarte) drives the remaining div J, from inexact solves, back to zero.
 #pragma once
 
 #include "core/numerics/linear_solver.hpp"
@@ -15,12 +15,12 @@ class Pressure {
   /// tolerance: relative residual of the Poisson equation.
   Pressure(const core::Grid& grid, double tolerance);
 
-  /// Solves for p, starting from the p given; returns what the solver says. Nothing else is changed.
+  /// Solves for p, starting from the given p; returns the solver's result. Nothing else changes.
   /// \param rate  dJ/dt without pressure and the mobility B
   /// \param flux  J, m/s
   /// \param w     rate at which div J is driven to zero, 1/s
   core::PoissonResult solve(const FluxRate& rate, const core::FaceField& flux, double w, core::Field& pressure);
-  /// Begins anew: what comes next does not depend on earlier solves.
+  /// Starts anew: further solves do not depend on earlier ones.
   void forget() { solver_.forget(); }
 
  private:
@@ -28,7 +28,7 @@ class Pressure {
   double tolerance_;
   core::PoissonSolver solver_;
   core::Field divergence_, source_;
-  core::FaceField open_mobility_;  ///< of a round column
+  core::FaceField open_mobility_;  ///< for a round column
 };
 
 /// Calls body(begin, end, gradient) for rows of an axis's moving faces, where gradient(c) is dp/dx_axis,
@@ -43,10 +43,10 @@ void for_each_gradient_row(const core::Grid& grid, const core::Box& box, int axi
   });
 }
 
-/// p = 0 half a cell above the outlet, and what other cells own beyond the block. Collective.
+/// Sets p = 0 half a cell above the outlet, and the ghosts owned by other cells. Collective.
 void set_outlet_pressure(const core::Grid& grid, const Boundaries& boundaries, core::Field& pressure);
 
-/// Largest |div J| h / U over the block's cells: how well volume is conserved. U: a velocity scale, m/s.
+/// Largest |div J| h / U over the block's cells: the error in conservation of volume. U: a velocity scale, m/s.
 [[nodiscard]] double divergence_error(const core::Grid& grid, const core::FaceField& flux, double velocity_scale);
 
 }  // namespace polybed::fluid

@@ -11,13 +11,13 @@
 namespace polybed::fluid {
 
 namespace {
-/// Along an axis, for cells much smaller than w, the kernel is higher than the Gaussian and narrower at half height: by
-/// 5.0 and 7.3 % with 8 steps, 2.4 and 3.6 % with 16, 1.2 and 1.8 % with 32. With 16 the cells soon matter more: at w
-/// of 4 cells it is 9.2 % higher, 7.5 % with 32. The cost is in proportion: with 16, 15 ns per cell and field in 2-D.
+/// For cells much smaller than w the kernel along an axis is higher than the Gaussian and narrower at half height: by
+/// 5.0 and 7.3 % with 8 steps, 2.4 and 3.6 % with 16, 1.2 and 1.8 % with 32. The cells soon matter more: at w of 4
+/// cells it is 9.2 % higher with 16, 7.5 % with 32. The cost is proportional: with 16, 15 ns per cell and field in 2-D.
 constexpr int steps = 16;
 static_assert(steps % 2 == 0);
 
-/// The faces of an axis that are smoothed.
+/// The faces of an axis to be smoothed.
 core::Box free_faces(const core::Grid& grid, int axis, bool closed) {
   core::Box box = core::interior_faces(grid, axis);
   if (axis == 1 && !closed) box.hi[1] = grid.faces(1);
@@ -32,7 +32,7 @@ void for_each_entry(int count, core::Index stride, const core::Index* starts, in
     for (int l = 0; l < lines; ++l) copy(i * lanes + l, starts[l] + i * stride);
 }
 
-/// What of the entries of a round column is open to what is smoothed. Closed faces are held.
+/// Open shares of the entries of a round column. Closed faces are held.
 class OpenEntries {
  public:
   /// \param of  axis of faces; -1: cells
@@ -42,7 +42,7 @@ class OpenEntries {
     if (of_ >= 0 && !(metric_.open[std::size_t(of_)][std::size_t(c)] > 0)) return 0;
     return mean(metric_.volume, c);
   }
-  /// Share of what lies between an entry and the one before along an axis. \param stride  of the axis
+  /// Open share between an entry and the previous one along an axis. \param stride  of the axis
   [[nodiscard]] double between(core::Index c, int axis, core::Index stride) const {
     return volume(c) > 0 && volume(c - stride) > 0 ? mean(metric_.open[std::size_t(axis)], c) : 0;
   }
@@ -60,8 +60,8 @@ class OpenEntries {
 
 double smoothing_width(double smallest_cell, double largest_diameter, std::size_t particles) {
   const bool single = particles < fewest_of_a_bed;
-  // In cells of 2.5 diameters a sphere alone stirs its own cell so much that it falls 4.7 % too fast, with the wide
-  // kernel 0.6 %.
+  // In cells of 2.5 diameters a single sphere disturbs the fluid in its own cell so much that it falls 4.7 % too fast,
+  // with the wide kernel 0.6 %.
   if (smallest_cell >= (single ? 5 : 1.5) * largest_diameter) return 0;
   return (single ? 6 : 4) * largest_diameter;
 }
@@ -72,14 +72,14 @@ LineDiffusion::LineDiffusion(int count, bool joined, double lambda, int steps) :
   const auto n = std::size_t(count);
   if (joined) {
     const double root = 2 / (1 + std::sqrt(1 + 4 * lambda));  // 1 - q, of lambda (1 - q)^2 = q
-    const double q = lambda * root * root, rest = 1 - q;  // of q as rounded, or the sum would drift where q is near 1
+    const double q = lambda * root * root, rest = 1 - q;      // from the rounded q, or the sum would drift for q near 1
     gain_.assign(n, rest * rest);
     carry_.assign(n, q);
     back_ = carry_;
     around_ = -1 / std::expm1(count * std::log1p(-rest));
     return;
   }
-  double excess = 1;  // of the pivot over lambda: 1 + lambda (1 - lambda/pivot before)
+  double excess = 1;  // of the pivot over lambda: 1 + lambda (1 - lambda/previous pivot)
   for (std::size_t i = 0; i < n; ++i) {
     const double pivot = i + 1 < n ? lambda + excess : excess;
     gain_.push_back(1 / pivot);
@@ -92,7 +92,7 @@ LineDiffusion::LineDiffusion(int count, bool joined, double lambda, int steps) :
 LineDiffusion::LineDiffusion(const std::vector<double>& volume, const std::vector<double>& open, double lambda,
                              int steps)
     : steps_(steps) {
-  double passed_on = 0;  // what of the coupling with the entry before adds to the pivot
+  double passed_on = 0;  // contribution to the pivot from the coupling with the previous entry
   for (std::size_t i = 0; i < volume.size(); ++i) {
     const double below = lambda * open[i], above = i + 1 < volume.size() ? lambda * open[i + 1] : 0;
     const double excess = volume[i] + passed_on, pivot = volume[i] > 0 ? excess + above : 1;
@@ -149,7 +149,7 @@ Smoothing::Sweeps Smoothing::sweeps(const core::Grid& grid, const core::Box& box
 }
 
 /// Lines with the same coefficients, up to round-off, are smoothed together. Half of x comes before the others and half
-/// behind, in a tapered column half of y within that.
+/// after; in a tapered column half of y likewise within that.
 Smoothing::Sweeps Smoothing::open_sweeps(const core::Grid& grid, int of, const core::Box& box, double time) {
   const OpenEntries entries(grid, of);
   Sweeps result;

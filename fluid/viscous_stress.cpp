@@ -32,7 +32,7 @@ void add_with(const Metric& metric, const Density& density, const core::Grid& gr
   });
 }
 
-/// No slip along walls that do not follow the grid. \param viscosity  kinematic, m2/s
+/// Friction of no-slip walls that do not follow the grid. \param viscosity  kinematic, m2/s
 void subtract_wall_friction(const core::Grid& grid, const Boundaries& boundaries, const FluidState& fluid,
                             double viscosity, core::FaceField& acceleration) {
   for (int axis = 0; axis < grid.dimensions; ++axis) {
@@ -45,8 +45,8 @@ void subtract_wall_friction(const core::Grid& grid, const Boundaries& boundaries
   }
 }
 
-/// Half of what a velocity is multiplied by in its own equation, over the kinematic viscosity: between cells of its
-/// momentum by the mean open share of the faces that they have in common.
+/// Half of a velocity's coefficient in its own equation, over the kinematic viscosity. Cells of its momentum are
+/// coupled by the mean open share of their common faces.
 double rate_of_face(const core::Grid& grid, std::size_t a, Index f) {
   const core::Metric& metric = *grid.metric;
   const auto at = std::size_t(f), low = std::size_t(f - grid.stride(int(a)));

@@ -7,7 +7,7 @@ using core::Index;
 
 namespace {
 
-/// Adds sign dU_of/dx_along: the mean of U on a cell's two faces, from the cell behind to the one before.
+/// Adds sign dU_of/dx_along: the mean of U on a cell's two faces, from the previous cell to the next.
 void add_slope(const core::Grid& grid, const core::FaceField& velocity, int of, int along, double sign, Field& out) {
   const Field& u = velocity[std::size_t(of)];
   const Index to_high = grid.stride(of), s = grid.stride(along);

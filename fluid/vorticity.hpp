@@ -5,7 +5,7 @@
 
 namespace polybed::fluid {
 
-/// omega = curl U, 1/s, in owned cells, by central differences over two cells; of a 2-D grid its third component alone.
+/// omega = curl U, 1/s, in owned cells, by central differences over two cells; only the third component for a 2-D grid.
 /// \param velocity  on faces, with its ghosts
 void find_vorticity(const core::Grid& grid, const core::FaceField& velocity, std::array<core::Field, 3>& vorticity);
 
