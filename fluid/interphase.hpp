@@ -1,5 +1,5 @@
-// The only door between the averaged fluid and the solids, whatever they are: filled by a model of the
-// solids, read by the equations of the fluid.
+// The only interface between the averaged fluid and the solids, whatever they are: filled by a model of the solids,
+// read by the equations of the fluid.
 #pragma once
 
 #include <vector>
@@ -14,9 +14,9 @@ struct Interphase {
   std::vector<core::FaceField> velocity;      ///< U_j, m/s, [species][axis][face]
   std::vector<core::Field> fraction_rate;     ///< d phi_j / dt, 1/s, [species][cell]
   std::vector<core::FaceField> acceleration;  ///< a_j: dU_j/dt without the net pressure gradient, m/s2
-  std::vector<core::Field> temperature;       ///< theta_j, m2/s2, of fluctuations; empty where no closure asks for it
+  std::vector<core::Field> temperature;       ///< theta_j, m2/s2, of fluctuations; empty if no closure needs it
   std::vector<core::Field> temperature_rate;  ///< d theta_j / dt, m2/s3; empty unless theta_j is an unknown
-  std::vector<core::FaceField> passed;        ///< what has crossed ends and sides, m, [species][axis][face]; or empty
+  std::vector<core::FaceField> passed;        ///< volume through ends and sides, m, [species][axis][face]; or empty
   std::vector<core::FaceField> passed_rate;   ///< d passed / dt, m/s
   std::vector<core::Field> exchange;          ///< b_j = beta_j / phi_j, kg/(m3 s), finite where phi_j = 0
   bool carry_pressure = true;                 ///< -phi_j grad p acts on them (form A), or on the fluid alone (form B)
@@ -31,7 +31,7 @@ struct Interphase {
         exchange(density.size(), core::make_field(grid)) {}
 
   [[nodiscard]] std::size_t species() const { return density.size(); }
-  /// What a unit gradient of the pressure does to U_j, m3/kg.
+  /// Change of U_j per unit gradient of the pressure, m3/kg.
   [[nodiscard]] double response(std::size_t j) const { return carry_pressure ? 1 / density[j] : 0; }
 };
 
