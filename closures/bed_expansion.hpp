@@ -1,11 +1,11 @@
-// Balance of drag and buoyant weight in a uniform bed of one size, or of a mixture at its Sauter diameter and mean
-// density: 18 mu u f(eps, Re)/D^2 = |rho_s - rho_f| g eps, T(1.49) with the balance of T(1.24). Drag falls with voidage
-// and grows with the superficial slip velocity u, so both roots are found by bisection.
+// Balance of drag and buoyant weight in a uniform bed of one size, or of a mixture with its Sauter diameter and mean
+// density: 18 mu u f(eps, Re)/D^2 = |rho_s - rho_f| g eps, T(1.49) with T(1.24). Drag decreases with voidage and
+// increases with the superficial slip velocity u, so both roots are found by bisection.
 #pragma once
 
 namespace polybed::closures {
 
-/// What is carried, by which fluid.
+/// A suspended bed and its fluid.
 struct CarriedBed {
   double diameter, excess;          ///< D, m; |rho_s - rho_f|, kg/m3
   double fluid_density, viscosity;  ///< kg/m3, Pa s
@@ -21,7 +21,7 @@ template <class Drag>
          bed.excess * bed.gravity * voidage;
 }
 
-/// The voidage at which the bed is carried: `packed` where even that is not, 1 where a lone particle is carried away.
+/// The voidage at which the bed is suspended: `packed` if the flow is too slow, 1 if it carries a lone particle away.
 template <class Drag>
 [[nodiscard]] double carried_voidage(Drag&& f, const CarriedBed& bed, double velocity, double packed) {
   double low = packed, high = 1 - 1e-6;
@@ -34,7 +34,7 @@ template <class Drag>
   return low;
 }
 
-/// The superficial slip velocity, m/s, at which a bed of a voidage is carried; 0 without weight.
+/// The superficial slip velocity, m/s, that suspends a bed with a given voidage; 0 without weight.
 template <class Drag>
 [[nodiscard]] double carrying_velocity(Drag&& f, const CarriedBed& bed, double voidage) {
   if (!(bed.excess * bed.gravity > 0)) return 0;
@@ -47,9 +47,9 @@ template <class Drag>
   return 0.5 * (low + high);
 }
 
-/// s, > 0: the top of a bed that lies packed rises as a plug at u - u_mf after the fluid is switched on, however fast
-/// layers below it expand (Slis, Willemse and Kramers, Applied Scientific Research A 8 (1959) 209, for their case
-/// u_1 = u_mf). Beds of several sizes need longer: their species part afterwards.
+/// Rising time, s, > 0: the top of a packed bed rises as a plug at u - u_mf after the fluid is switched on, however
+/// fast layers below it expand (Slis, Willemse and Kramers, Applied Scientific Research A 8 (1959) 209, for u_1 =
+/// u_mf). Beds with several sizes need longer: their species separate afterwards.
 /// \param rise  of the top, m  \param velocity, lifting  u > u_mf, superficial, m/s
 [[nodiscard]] inline double rising_time(double rise, double velocity, double lifting) {
   return rise / (velocity - lifting);

@@ -41,7 +41,7 @@ inline constexpr double hertz_damping_share = 0.91287092917527685576;
   return 0.4 * coefficient * overlap * overlap * std::sqrt(overlap);
 }
 
-/// delta_m = (5 m* V^2/(4 K))^(2/5), m, of an elastic impact at speed V. For set-up.
+/// delta_m = (5 m* V^2/(4 K))^(2/5), m, in an elastic impact at speed V. For set-up.
 [[nodiscard]] inline double hertz_greatest_overlap(double coefficient, double mass, double speed) {
   return std::pow(1.25 * mass * speed * speed / coefficient, 0.4);
 }
@@ -54,7 +54,7 @@ inline constexpr double hertz_damping_share = 0.91287092917527685576;
 /// t_c over delta_m/V: 2 int_0^1 dx/sqrt(1 - x^2.5) = (4/5) sqrt(pi) Gamma(2/5)/Gamma(9/10).
 inline constexpr double hertz_time_factor = 2.9432751843;
 
-/// t_c = 2.9432751843 delta_m/V, s, of an elastic impact. For set-up.
+/// t_c = 2.9432751843 delta_m/V, s, for an elastic impact. For set-up.
 [[nodiscard]] inline double hertz_contact_time(double greatest_overlap, double speed) {
   return hertz_time_factor * greatest_overlap / speed;
 }

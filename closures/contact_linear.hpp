@@ -12,7 +12,7 @@ namespace polybed::closures {
   return 2 * beta * std::sqrt(stiffness * mass);
 }
 
-/// t_c = pi sqrt(m*/k)/sqrt(1 - beta^2), s, with the tail kept; infinite from beta = 1 on: it creeps apart.
+/// t_c = pi sqrt(m*/k)/sqrt(1 - beta^2), s, with the tail kept; infinite for beta >= 1, where the spheres creep apart.
 [[nodiscard]] inline double linear_contact_time(double stiffness, double mass, double beta) {
   return beta < 1 ? std::numbers::pi * std::sqrt(mass / stiffness) / std::sqrt((1 - beta) * (1 + beta))
                   : std::numeric_limits<double>::infinity();
@@ -23,8 +23,8 @@ namespace polybed::closures {
   return 0.5 * stiffness * overlap * overlap;
 }
 
-/// Tangential over normal stiffness where a case gives none, 2/7: equal periods of both springs for a solid sphere on a
-/// plane, m R^2/I = 5/2.
+/// Default ratio of tangential to normal stiffness, 2/7: equal periods of both springs for a solid sphere on a plane, m
+/// R^2/I = 5/2.
 inline constexpr double linear_tangential_share = 2.0 / 7;
 
 }  // namespace polybed::closures

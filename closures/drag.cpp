@@ -10,8 +10,8 @@ namespace polybed::closures {
 
 namespace {
 
-/// Law over rows. A law without costly guard is called as it is; cello and brinkman_oseen run branch-free over all rows
-/// and a second pass redoes those outside their data.
+/// Evaluates a law over rows. A law with a cheap guard is called directly; cello and brinkman_oseen run branch-free
+/// over all rows, and a second pass recomputes the rows outside their data.
 template <class Law>
 void evaluate(const Law& law, std::size_t rows, const double* voidage, const double* reynolds, double* f,
               double* re_dfdre, GuardCount& count) {
@@ -56,16 +56,16 @@ void evaluate(const Law& law, std::size_t rows, const double* voidage, const dou
   count.guarded += outside;
 }
 
-/// Cells that are worked on together: few enough that their rows stay in the processor's first cache.
+/// Cells computed together: few enough that their rows stay in the first-level cache.
 struct Block {
   static constexpr std::size_t most = 128;
   using Row = std::array<double, most>;
   std::size_t cells;
   Row cell_voidage, mean, per_mean, coefficient;       // of each cell
-  Row voidage, reynolds, offset, factor, f, re_dfdre;  // of one species in each cell
+  Row voidage, reynolds, offset, factor, f, re_dfdre;  // for one species in each cell
 };
 
-/// The block's cells from `begin` on as the law sees them.
+/// The block's cells from `begin` on, as input to the law.
 template <class Law>
 void compose(const Law& law, Block& block, std::size_t begin, std::span<const double> voidage,
              std::span<const double* const> share, std::span<const double> diameter) {
@@ -89,7 +89,7 @@ void compose(const Law& law, Block& block, std::size_t begin, std::span<const do
   }
 }
 
-/// f of one species in all cells of a block.
+/// f of one species in all cells in a block.
 template <class Law>
 void evaluate_species(const Law& law, Block& b, const double* share, const double* slip, double diameter,
                       double per_viscosity, double* f, GuardCount& count) {
@@ -105,16 +105,16 @@ void evaluate_species(const Law& law, Block& b, const double* share, const doubl
   for (std::size_t c = 0; c < b.cells; ++c) f[c] = b.offset[c] + b.factor[c] * b.f[c];
 }
 
-/// What each particle of a block reads.
+/// Input of each particle in a block.
 struct ParticleRows {
   const double *voidage, *per_mean, *average, *per_square, *share, *diameter, *slip;
 };
 
-/// f of the particles of a block, each the one species wanted of its own mixture.
+/// f of the particles in a block; each is one species in its own mixture.
 template <class Law>
 void evaluate_particles(const Law& law, Block& b, const ParticleRows& in, double largest, double per_viscosity,
                         double* f, GuardCount& count) {
-  for (std::size_t p = 0; p < b.cells; ++p) {  // apart from the next loop: together they are too long for vectors
+  for (std::size_t p = 0; p < b.cells; ++p) {  // separate from the next loop: a longer loop would not be vectorised
     b.per_mean[p] = in.per_mean[p];
     b.coefficient[p] = law.coefficient(in.voidage[p], {in.per_mean[p], in.average[p], largest});
   }
@@ -172,7 +172,7 @@ void compose_medium(const Law& law, BlockFor<Law>& block, std::size_t begin, std
   for (std::size_t c = 0; c < block.cells; ++c) block.set_medium(law, c, per_square[c]);
 }
 
-/// f of y and Re of a block in its media: branch-free over all, then those anew that the guard answers.
+/// f for y and Re in the media of a block: branch-free over all, then again for those that need the guard.
 template <HasMedium Law>
 void evaluate_in_media(const Law& law, const BlockFor<Law>& b, double* f, GuardCount& count) {
   for (std::size_t c = 0; c < b.cells; ++c) f[c] = law.base.bare(b.medium_of(c), b.y[c], b.reynolds[c]).f;
@@ -208,7 +208,7 @@ void evaluate_particles_in_media(const Law& law, BlockFor<Law>& b, const Particl
   evaluate_in_media(law, b, f, count);
 }
 
-/// The kernels of a law, by whether it has a medium.
+/// The kernels for a law, with or without a medium.
 template <class Law>
 struct Kernels {
   static constexpr auto compose = closures::compose<Law>;
@@ -222,7 +222,7 @@ struct Kernels<Law> {
   static constexpr auto particles = evaluate_particles_in_media<Law>;
 };
 
-/// Scales f by the factors of a moved law: see DragLaw. \param y  of each row
+/// Scales f by the factors of a modified law: see DragLaw. \param y  in each row
 void move(const DragLaw& law, std::span<const double> y, double* f) {
   for (std::size_t n = 0; n < y.size(); ++n) f[n] *= law.moved(y[n]);
 }
@@ -238,13 +238,13 @@ void visit_sharing(const DragLaw& law, Body&& body) {
   law.partition ? std::visit(body, *law.partition) : std::visit(body, law.law);
 }
 
-/// Makes f of a partition that of the mean law: times f_mean/f_one at each cell's mean Reynolds number.
+/// Converts f of a partition to the mean law: times f_mean/f_one at each cell's mean Reynolds number.
 template <class Own>
 void take_mean(const DragLaw& law, const Own& own, std::span<const double> voidage, const Block::Row& reynolds,
                double* f, GuardCount& count) {
   const std::size_t cells = voidage.size();
   Block::Row mean, one, slope;
-  GuardCount not_told;  // the range that counts is that of the mean law
+  GuardCount not_told;  // not reported: the range of the mean law counts
   drag_of_points({law.law}, voidage, {reynolds.data(), cells}, {mean.data(), cells}, {slope.data(), cells}, count);
   core::in_vectors<evaluate<Own>>(own, cells, voidage.data(), reynolds.data(), one.data(), slope.data(), not_told);
   for (std::size_t c = 0; c < cells; ++c) f[c] *= mean[c] / one[c];

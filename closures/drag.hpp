@@ -22,7 +22,7 @@
 
 namespace polybed::closures {
 
-/// Every law of mixtures by name, and the forms whose constants a file gives; the order is that of the lists shown.
+/// Every mixture law by name, and the forms with constants from a file, in the order of the displayed lists.
 using MixtureLaw =
     std::variant<EachSpecies<DragStokes>, EachSpecies<DragTurtonLevenspiel>, EachSpecies<DragSchillerNaumann>,
                  EachSpecies<DragDallavalle>, EachSpecies<DragCarmanKozeny>, EachSpecies<DragErgun>,
@@ -31,18 +31,18 @@ using MixtureLaw =
                  MixtureVbkTheory, MixtureVbkCorrected, MixtureCello, MixtureBrinkmanOseen, MixtureYinSundaresan,
                  MixturePatwardhanTien, MixtureSyamlal, MixtureFittedCello, MixtureFittedBrinkmanOseen>;
 
-/// How a mean drag is shared among species: f_j = f_mean(eps, Re_m) f_j^part/f_one^part(eps, Re_m), f_one^part the
-/// partition's own law of one size and Re_m = rho_f u_j D_mean/mu of the particle's own slip. Partitions that are a
-/// factor Omega_j whatever the mean stand on a law that is 1.
+/// Distribution of a mean drag among species: f_j = f_mean(eps, Re_m) f_j^part/f_one^part(eps, Re_m), with f_one^part
+/// the partition's own law of one size and Re_m = rho_f u_j D_mean/mu with the particle's own slip. Partitions that are
+/// a factor Omega_j for any mean use a base law of 1.
 using Partition = std::variant<CelloShares<DragStokes>, VbkTheoryShares<DragStokes>, VbkCorrectedShares<DragStokes>,
                                MixtureYinSundaresan, MixtureBrinkmanOseen>;
 
-/// A law of mixtures, or its base law as the mean of a partition.
+/// A mixture law, or its base law as the mean of a partition.
 struct DragLaw {
   MixtureLaw law;
   std::optional<Partition> partition = {};
-  /// What a study of the law's uncertainty moves: f_j is multiplied by common [1 + tilt (y_j - 1)]. The tilt changes
-  /// the ratio of the species alone: where f_j goes as y_j, sum x_j f_j/y_j^2 is the same.
+  /// Modification for studies of the law's uncertainty: f_j is multiplied by common [1 + tilt (y_j - 1)]. The tilt
+  /// changes only the ratio between species: if f_j is proportional to y_j, sum x_j f_j/y_j^2 is unchanged.
   double common = 1, tilt = 0;
   /// The factors of particles that are no spheres, on f_j of each species and on the base law of one size; none: all
   /// are spheres.
@@ -61,49 +61,49 @@ struct DragLaw {
   }
 };
 
-/// The law of a name, with or without its guard; throws std::invalid_argument for an unknown name.
+/// The law with a name, with or without its guard; throws std::invalid_argument for an unknown name.
 [[nodiscard]] DragLaw drag_law(std::string_view name, Guard guard);
 
-/// A law of one size as the mean of a partition; "none" is the law alone. The pair that a law of mixtures is made of is
-/// that law. Throws std::invalid_argument for an unknown name and for a law that is no mean.
+/// A law of one size as the mean of a partition; "none" is the law alone. If a mixture law consists of this pair,
+/// returns that law. Throws std::invalid_argument for an unknown name and for a law that is not a mean.
 [[nodiscard]] DragLaw drag_law(std::string_view name, std::string_view partition, Guard guard);
 
-/// The law with the partition of a name, "none" being the law alone; throws std::invalid_argument for an unknown name
-/// and for a law that is no mean. \param name  of the law
+/// The law with a named partition; "none" is the law alone. Throws std::invalid_argument for an unknown name and for a
+/// law that is not a mean. \param name  of the law
 [[nodiscard]] DragLaw shared_by(const DragLaw& law, std::string_view name, std::string_view partition, Guard guard);
 
 struct DragLawInfo {
   std::string name, help, source;
   bool obeys_sum_rule;
-  bool is_mean;  ///< a law of one size, which a partition can share
+  bool is_mean;  ///< a law of one size, which a partition can distribute
 };
 [[nodiscard]] std::vector<DragLawInfo> drag_laws();
 [[nodiscard]] std::vector<std::string> drag_law_names();
 
-/// Help and source are of how it shares; obeys_sum_rule: over any mean law.
+/// Help and source describe how it distributes; obeys_sum_rule: with any mean law.
 [[nodiscard]] std::vector<DragLawInfo> partitions();
 
-/// The base law at points: f and Re df/dRe of one size. All spans of one length; counted into `count`.
+/// The base law at points: f and Re df/dRe for one size. All spans have one length; guard calls are added to `count`.
 void drag_of_points(const DragLaw& law, std::span<const double> voidage, std::span<const double> reynolds,
                     std::span<double> f, std::span<double> re_dfdre, GuardCount& count);
 
-/// The base law at one point: pure drag over Stokes of one size.
+/// The base law at one point: pure drag over Stokes for one size.
 [[nodiscard]] double pure_drag_at(const DragLaw& law, double voidage, double reynolds);
 
-/// One cell with a mixture: f_j and Re df_j/dRe of every species.
+/// One cell with a mixture: f_j and Re df_j/dRe for every species.
 /// \param slip  superficial slip speed eps |U_f - U_j|, m/s, [species]
 void drag_of_mixture(const DragLaw& law, double voidage, std::span<const double> share,
                      std::span<const double> diameter, std::span<const double> slip, double fluid_density,
                      double viscosity, std::span<double> f, std::span<double> re_dfdre);
 
 /// f_mean of a mixture whose species have the drag f at a common slip: the base law, or mean law, at the Sauter
-/// diameter where the law or partition is built on it, else sum x_j f_j / y_j^2, T(3.45).
-/// \param reynolds  of the Sauter diameter and the superficial slip velocity
+/// diameter if the law or partition is based on it, else sum x_j f_j / y_j^2, T(3.45).
+/// \param reynolds  from the Sauter diameter and the superficial slip velocity
 [[nodiscard]] double drag_of_mean(const DragLaw& law, double voidage, double reynolds, std::span<const double> share,
                                   std::span<const double> diameter, std::span<const double> f);
 
-/// sum x_j f_j / y_j^2 over the base law at the Sauter diameter, less 1: by how much the drag of the mixture, and with
-/// it the pressure drop, departs from the law of one size. Arguments as above.
+/// sum x_j f_j / y_j^2 over the base law at the Sauter diameter, minus 1: relative difference of the mixture's drag,
+/// and so of the pressure drop, from the law of one size. Arguments as above.
 [[nodiscard]] double deviation_from_base(const DragLaw& law, double voidage, double reynolds,
                                          std::span<const double> share, std::span<const double> diameter,
                                          std::span<const double> f);
@@ -114,7 +114,7 @@ void drag_of_cells(const DragLaw& law, std::span<const double> voidage, std::spa
                    std::span<const double* const> slip, std::span<const double> diameter, double fluid_density,
                    double viscosity, std::span<double* const> f, GuardCount& count);
 
-/// Whether the law asks for more of a mixture than its two mean diameters.
+/// Whether the law needs more than the two mean diameters of a mixture.
 [[nodiscard]] bool needs_per_square(const DragLaw& law);
 
 /// Many particles, each in a mixture of its own: f[particle] of the particle's own species, no allocation, without its

@@ -12,7 +12,7 @@ struct DragBatchelor {
   static constexpr std::string_view help = "dilute suspension, creeping flow; solids fraction < 0.05";
   static constexpr std::string_view source = "Cello 2009, eq. 3.22";
   Guard guard = Guard::on;
-  /// f = eps/(1 - 6.55 phi), singular at eps 0.8473; guarded beyond phi = 0.05 by its tangent there.
+  /// f = eps/(1 - 6.55 phi), singular at eps 0.8473; the guard uses its tangent beyond phi = 0.05.
   DragValue operator()(double eps, double) const {
     const double phi = 1 - eps;
     if (guard == Guard::on && phi > 0.05) return {1.41264 + 12.2718 * (phi - 0.05), 0};

@@ -1,5 +1,5 @@
-// A sphere of one size in a Brinkman medium with Oseen's inertia: the drag law of this project, for fixed spheres of
-// any mixture of sizes. Seven constants are fitted to the lattice-Boltzmann rows of tests/data/lbm, the rest is theory.
+// A sphere of one size in a Brinkman medium with Oseen's inertia: this project's drag law, for fixed spheres in any
+// mixture of sizes. Seven constants are fitted to the lattice-Boltzmann rows in tests/data/lbm, the rest is theory.
 //
 //   f0(phi)  = 10 phi/eps^2 + eps^5 [1 + (3/sqrt 2) sqrt phi + (135/64) phi ln phi + 10.456 phi]
 //   c(phi)   = phi/(2 eps + 2.664 phi^3)
@@ -8,11 +8,11 @@
 //   J_j = I(phi, Re_j) [1 + (3/2) c (y_j - 1)]                        inertial (Oseen, then Forchheimer)
 //   f_j = 1/eps + (K_j^(3/2) + J_j^(3/2))^(2/3)
 //
-// phi = max(1 - eps, 0), eps = 1 - phi; Re_j = rho_f u_j D_j/mu of the particle's own slip and own diameter.
-// Data: eps 0.35-1, Re 0-1050, y 0.30-3.25, sizes to 1:4, m2 to 1.55. Limits: 1 at phi, Re -> 0; Kozeny-Carman when
-// dense; 1/eps of a tiny sphere among large ones; a dilute mixture at Re 0: 1 + (3/sqrt 2) sqrt(phi m2) y_j. f_j >=
-// 1/eps, and f never falls with Re or phi. Not exact: small Re at finite phi, where f - f0 goes as Re^1.5 and theory as
-// Re^2. The guard continues I beyond Re_c = 1050, with ' = d/dR and T the law of Turton and Levenspiel:
+// phi = max(1 - eps, 0), eps = 1 - phi; Re_j = rho_f u_j D_j/mu with the particle's own slip and diameter. Data: eps
+// 0.35-1, Re 0-1050, y 0.30-3.25, sizes to 1:4, m2 to 1.55. Limits: 1 at phi, Re -> 0; Kozeny-Carman when dense; 1/eps
+// for a tiny sphere among large ones; a dilute mixture at Re 0: 1 + (3/sqrt 2) sqrt(phi m2) y_j. f_j >= 1/eps, and f
+// never falls with Re or phi. Not exact: small Re at finite phi, where f - f0 scales as Re^1.5 and in theory as Re^2.
+// The guard continues I beyond Re_c = 1050, with ' = d/dR and T the law of Turton and Levenspiel:
 //   I = I_c (T - 1)/(T_c - 1) + [I'_c - I_c T'_c/(T_c - 1)] (R - Re_c)(Re_c/R)^3
 #pragma once
 
@@ -28,18 +28,18 @@
 
 namespace polybed::closures {
 
-/// What the law needs of a voidage and a composition, the same for all species: 1/eps; the factors of y_j and of y_j^2
-/// in K_j; (3/2) c; and I = R [oseen (1 + 0.7664 R)^power + forchheimer]. An array, so that batches hold each number in
-/// a row.
+/// The law's numbers for a voidage and a composition, the same for all species: 1/eps; the factors of y_j and of y_j^2
+/// in K_j; (3/2) c; and I = R [oseen (1 + 0.7664 R)^power + forchheimer]. An array, so that batches store each number
+/// in a row.
 using BrinkmanMedium = std::array<double, 7>;
 
-/// The fitted constants of the form, in the order of I and then c; all positive.
+/// The fitted constants of the form, in the order of I, then c; all positive.
 struct BrinkmanOseenConstants {
   double inertia_phi = 0.9095, stretch = 0.7664, power = 0.4422, power_phi = 0.2509;
   double forchheimer = 0.04289, forchheimer_phi = 20.4, screening = 2.664;
 };
 
-/// The constants of this project, known to the compiler.
+/// The constants of this project, known at compile time.
 struct PublishedBrinkmanOseen {
   static constexpr std::string_view name = "brinkman_oseen";
   static constexpr std::string_view help =
@@ -49,7 +49,7 @@ struct PublishedBrinkmanOseen {
   static constexpr BrinkmanOseenConstants constants{};
 };
 
-/// Constants of a file: see closures/drag_form.hpp.
+/// Constants from a file: see closures/drag_form.hpp.
 struct FittedBrinkmanOseen {
   static constexpr std::string_view name = "fitted brinkman_oseen";
   static constexpr std::string_view help = "the form of brinkman_oseen with constants of a file";
@@ -63,7 +63,7 @@ struct BrinkmanOseenForm : Source {
   static constexpr double most_reynolds = 1050;
   Guard guard = Guard::on;
 
-  /// One size: y = m2 = 1.
+  /// For one size: y = m2 = 1.
   DragValue operator()(double eps, double re) const { return of_species(medium(eps, 1), 1, re); }
 
   [[nodiscard]] bool outside(double eps, double re) const { return (eps < 0.35) | (eps > 1) | (re > most_reynolds); }
@@ -71,7 +71,7 @@ struct BrinkmanOseenForm : Source {
   /// The same without the guard, and without a branch.
   [[nodiscard]] DragValue bare_of_size(double eps, double re) const { return bare(medium(eps, 1), 1, re); }
 
-  /// \param m2  sum x_k/y_k^2, 1 of one size
+  /// \param m2  sum x_k/y_k^2, 1 for one size
   [[nodiscard]] BrinkmanMedium medium(double voidage, double m2) const {
     const BrinkmanOseenConstants& k = this->constants;
     const double phi = std::max(1 - voidage, 0.0), eps = 1 - phi, per_eps = 1 / eps, eps2 = eps * eps;
@@ -89,7 +89,7 @@ struct BrinkmanOseenForm : Source {
             -k.power + k.power_phi * phi};
   }
 
-  /// f_j of a species of y_j = D_j over the Sauter diameter. \param re  of its own diameter and slip
+  /// f_j for a species with y_j, D_j over the Sauter diameter. \param re  from its own diameter and slip
   [[nodiscard]] DragValue of_species(const BrinkmanMedium& m, double y, double re) const {
     return joined(m, y, guard == Guard::on && re > most_reynolds ? beyond_data(m, re) : inertia(m, re));
   }
@@ -100,7 +100,7 @@ struct BrinkmanOseenForm : Source {
   }
 
  private:
-  /// f_j with an inertial part I and R dI/dR.
+  /// f_j from an inertial part I and R dI/dR.
   [[nodiscard]] static DragValue joined(const BrinkmanMedium& m, double y, const DragValue& part) {
     const auto& [per_eps, linear, square, shade, oseen, forchheimer, power] = m;
     const double viscous = std::max(y * (linear + square * y), 0.0), shaded = 1 + shade * (y - 1);
@@ -130,7 +130,7 @@ struct BrinkmanOseenForm : Source {
 using DragBrinkmanOseen = BrinkmanOseenForm<PublishedBrinkmanOseen>;
 using DragFittedBrinkmanOseen = BrinkmanOseenForm<FittedBrinkmanOseen>;
 
-/// The law of a mixture. It is not a base law times a factor: a medium for each cell, then f_j of each species in it.
+/// The law for a mixture. Instead of a base law times a factor it computes a medium for each cell, then each f_j in it.
 template <class Mean>
 struct BrinkmanOseenShares {
   static constexpr std::string_view name = Mean::name, help = Mean::help, source = Mean::source;

@@ -1,4 +1,4 @@
-// The drag law of the thesis: Cello, Di Renzo and Di Maio, T(4.1)-(4.2), one size, regressed on lattice-Boltzmann data.
+// The drag law in the thesis: Cello, Di Renzo and Di Maio, T(4.1)-(4.2), one size, fitted to lattice-Boltzmann data.
 //
 //   f  = K1 + K2 eps^4 + K3 (1 - eps^4),   K0 = (1-eps)/(1+3 eps)
 //   K1 = (1 + 128 K0 + 715 K0^2) / (eps^2 (1 + 49.5 K0))
@@ -6,9 +6,9 @@
 //   K3 = 2 Re^2/(1+Re) (-410 eps + 9.2e7 Re K0^20 + 1900 eps^2 - 0.066 Re)
 //                    / (6600 eps + 4.92e-4 Re - 43000 eps^2 - 1.31e-4 Re^2 + 7.38e4 eps^3)
 //
-// The last constant is 7.38e4 (printed 0.0738): only so do the thesis's own tables come back.
+// The last constant is 7.38e4 (printed 0.0738): only this value reproduces the thesis's own tables.
 //
-// The bare formula has a pole in Re, behind which f < 0, and explodes below eps 0.33. The guard continues it:
+// The bare formula has a pole in Re, above which f < 0, and diverges below eps 0.33. The guard continues it:
 //   G1  eps >= 0.35, Re <= Re_c:  the formula;   Re_c = min(1050, 0.5463 Re_s), Re_s the pole
 //   G2  eps >= 0.35, Re > Re_c:   f_c T/T_c + (f'_c - f_c T'_c/T_c)(Re - Re_c)(Re_c/Re)^3, T: Turton-Levenspiel
 //   G3  eps < 0.35:               K1(eps) + [f(0.35, Re) - K1(0.35)] (0.35/eps)^2, eps at least 0.10
@@ -32,7 +32,7 @@ struct CelloConstants {
   double pole_reynolds_square = 1.31e-4, pole_voidage_cube = 7.38e4, crossing = 0.73;
 };
 
-/// The constants of the thesis, known to the compiler.
+/// The constants in the thesis, known at compile time.
 struct PublishedCello {
   static constexpr std::string_view name = "cello";
   static constexpr std::string_view help = "mixtures, fitted to resolved flow; voidage 0.35-1, Re <= 1050";
@@ -40,7 +40,7 @@ struct PublishedCello {
   static constexpr CelloConstants constants{};
 };
 
-/// Constants of a file: see closures/drag_form.hpp.
+/// Constants from a file: see closures/drag_form.hpp.
 struct FittedCello {
   static constexpr std::string_view name = "fitted cello", help = "the form of cello with constants of a file";
   static constexpr std::string_view source = "";
@@ -50,14 +50,14 @@ struct FittedCello {
 
 template <class Source>
 struct CelloForm : Source {
-  static constexpr double least_voidage = 0.35;  ///< of the data; below, the guard G3
+  static constexpr double least_voidage = 0.35;  ///< least in the data; guard G3 applies below
   Guard guard = Guard::on;
 
   DragValue operator()(double eps, double re) const {
     return guard == Guard::on && outside(eps, re) ? guarded(std::min(eps, 1.0), re) : bare(eps, re);
   }
 
-  /// Whether the guard answers: outside the data, or too near the pole.
+  /// Whether the guard applies: outside the data, or too near the pole.
   [[nodiscard]] bool outside(double eps, double re) const {
     return eps < least_voidage || eps > 1 || re > most_reynolds(eps);
   }
@@ -68,7 +68,7 @@ struct CelloForm : Source {
     return (eps >= least_voidage) & (eps <= 1) & (re <= 600);
   }
 
-  /// The published formula, branch-free. Divisions are what it costs: each denominator is inverted once.
+  /// The published formula, branch-free. Divisions dominate the cost: each denominator is inverted once.
   [[nodiscard]] DragValue bare(double eps, double re) const {
     const CelloConstants& k = this->constants;
     const double eps2 = eps * eps, eps4 = eps2 * eps2;
@@ -99,7 +99,7 @@ struct CelloForm : Source {
     return (1 + k0 * (k.k1_linear + k.k1_square * k0)) / (eps * eps * (1 + k.k1_below * k0));
   }
 
-  /// Re_c: up to here the formula is used.
+  /// Re_c: the formula is used up to here.
   [[nodiscard]] double most_reynolds(double eps) const {
     const double a = this->constants.pole_reynolds_square, b = this->constants.pole_reynolds;
     const double pole = (b + std::sqrt(std::max(b * b + 4 * a * pole_constant(eps), 0.0))) / (2 * a);
@@ -119,7 +119,7 @@ struct CelloForm : Source {
     return {creeping(low) + (edge.f - creeping(least_voidage)) * scale, edge.re_dfdre * scale};
   }
 
-  /// G1 and G2 at a voidage inside the data.
+  /// G1 and G2 at a voidage within the data.
   [[nodiscard]] DragValue beyond_data(double eps, double re) const {
     const double re_c = most_reynolds(eps);
     if (re <= re_c) return bare(eps, re);

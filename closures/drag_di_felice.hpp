@@ -18,7 +18,7 @@ struct DragDiFelice {
   /// f = f_Dallavalle(Re) eps^-p, p = 3.7 - 0.65 exp[-(1.5 - log10 Re)^2/2]; p = 3.7 at Re = 0.
   DragValue operator()(double eps, double re) const {
     const DragValue single = DragDallavalle{}(eps, re);
-    // Where Re is cut off, the bump is less than 1e-40.
+    // At the limits of Re the bump is less than 1e-40.
     const double x = 1.5 - plain_log(std::clamp(re, 1e-13, 1e16)) / std::numbers::ln10;
     const double bump = 0.65 * plain_exp(-0.5 * x * x), crowding = plain_power(eps, bump - 3.7);
     const double slope = bump * x / std::numbers::ln10 * plain_log(eps);  // d ln(crowding) / d ln Re

@@ -1,4 +1,4 @@
-// Ergun and Wen-Yu joined, Huilin and Gidaspow 2003.
+// Ergun and Wen-Yu combined, Huilin and Gidaspow 2003.
 #pragma once
 
 #include <numbers>

@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::string_view no_partition = "none";
 
-/// Forms whose constants a file gives have no place in the menu.
+/// Forms with constants from a file are not in the menu.
 template <class Law>
 constexpr bool is_in_menu = !requires {
   Law::Base::is_fitted;
@@ -33,7 +33,7 @@ void for_each_of(Body&& body) {
   for_each_of<Variant>(body, std::make_index_sequence<std::variant_size_v<Variant>>{});
 }
 
-/// The alternative of a name, with its guard; nothing if there is none.
+/// The alternative with a name, with its guard; nothing if there is none.
 template <class Variant>
 std::optional<Variant> named(std::string_view name, Guard guard) {
   std::optional<Variant> found;
@@ -55,7 +55,7 @@ DragLawInfo info_of(std::string_view help, std::string_view source) {
   return {std::string(Law::name), std::string(help), std::string(source), Law::obeys_sum_rule, is_mean<Law>};
 }
 
-/// Name of the law of one size that a law of mixtures stands on.
+/// Name of the one-size law that a mixture law is based on.
 std::string_view base_name(const MixtureLaw& law) {
   return std::visit([](const auto& l) { return std::remove_cvref_t<decltype(l.base)>::name; }, law);
 }

@@ -7,7 +7,7 @@ namespace polybed::closures {
 
 namespace {
 
-/// f_j and Re df_j/dRe of every species by a law of mixtures.
+/// f_j and Re df_j/dRe of every species from a mixture law.
 template <class Law>
 void species_of_mixture(const Law& law, double voidage, const Composition& composition, std::span<const double> share,
                         std::span<const double> diameter, std::span<const double> slip, double fluid_density,
@@ -31,7 +31,7 @@ void species_of_mixture(const Law& law, double voidage, const Composition& compo
   }
 }
 
-/// The law of one size, without the factor of a moved law.
+/// The law of one size, without the factor of a modified law.
 DragValue base_at(const DragLaw& law, double voidage, double reynolds) {
   return std::visit([&](const auto& l) { return l.base(voidage, reynolds); }, law.law);
 }

@@ -45,7 +45,7 @@ struct DragRichardsonZaki {
     if (re_t < 1) return guard == Guard::on ? -0.2 / std::log(5.0) : -0.03 * exponent(re_t);
     return re_t <= 500 ? -0.1 * exponent(re_t) : 0;
   }
-  /// ln Re_t of ln Re_t + q(Re_t) ln eps = ln Re. The left side grows with Re_t, so each range of q is tried in turn.
+  /// Solves ln Re_t + q(Re_t) ln eps = ln Re. The left side grows with Re_t, so each range of q is tried in turn.
   [[nodiscard]] double terminal(double eps, double log_re) const {
     const double log_eps = std::log(eps);
     if (guard != Guard::on) return bisected(log_eps, log_re);
@@ -56,8 +56,8 @@ struct DragRichardsonZaki {
     if (between < 0) return between;
     return fast > last ? fast : by_newton(log_eps, log_re, std::max(fast, 0.0), last);
   }
-  /// The root where q = 4.45 Re_t^-0.1: of a concave function, so that steps from any place but the first come from
-  /// one side.
+  /// The root where q = 4.45 Re_t^-0.1. The function is concave, so Newton steps after the first approach from one
+  /// side.
   [[nodiscard]] static double by_newton(double log_eps, double log_re, double start, double last) {
     double root = start;
     for (int n = 0; n < 30; ++n) {
@@ -67,7 +67,7 @@ struct DragRichardsonZaki {
     }
     return std::min(root, last);
   }
-  /// The same of an exponent with jumps.
+  /// The same for an exponent with jumps.
   [[nodiscard]] double bisected(double log_eps, double log_re) const {
     double low = log_re, high = log_re - 4.65 * log_eps + 1e-12;
     for (int n = 0; n < 200 && high - low > 1e-15 * std::max(1.0, std::abs(high)); ++n) {

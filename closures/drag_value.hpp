@@ -1,4 +1,4 @@
-// What a drag law returns, and how its guard is asked for and counted.
+// Result of a drag law, and the use and count of its guard.
 #pragma once
 
 #include <cstdint>
@@ -11,10 +11,10 @@ struct DragValue {
   double re_dfdre;  ///< Re df/dRe: dF_d/du is 3 pi mu D (f + Re df/dRe)
 };
 
-/// Whether a law answers beyond its range by its guard, or by the bare published formula.
+/// Whether a law uses its guard beyond its range, or the bare published formula.
 enum class Guard { on, off };
 
-/// How often a law was asked, and how often outside the range it is stated for (there its guard answers).
+/// Number of evaluations of a law, and of those outside its stated range (there its guard applies).
 struct GuardCount {
   std::uint64_t evaluations = 0, guarded = 0;
 };

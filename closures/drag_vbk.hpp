@@ -23,7 +23,7 @@ struct DragVbk {
   DragValue operator()(double eps, double re) const {
     const double phi = std::max(1 - eps, 0.0), per_eps2 = 1 / (eps * eps);
     const double creeping = 10 * phi * per_eps2 + eps * eps * (1 + 1.5 * std::sqrt(phi));
-    const double log_re = plain_log(std::max(re, 1e-100));  // below, the last term is less than 1e-100
+    const double log_re = plain_log(std::max(re, 1e-100));  // below, the last term is under 1e-100
     const double power = 8.4 * plain_exp(-0.343 * log_re);
     const double above = 1 / eps + 3 * eps * phi + power;
     // 1/(1 + 10^(3 phi) Re^(-m)) as q/(1 + q), q = 10^(-3 phi) Re^m, which cannot overflow at small Re.

@@ -1,5 +1,5 @@
-// Exponential, logarithm, power and arctangent from + - * /, roots and bits alone, without branches: a loop over them
-// runs at vector speed, which one over those of <cmath> does not.
+// Exponential, logarithm, power and arctangent from + - * /, roots and bits alone, without branches: loops over them
+// are vectorised, unlike loops over the functions in <cmath>.
 #pragma once
 
 #include <algorithm>
@@ -15,12 +15,12 @@ namespace polybed::closures {
 [[nodiscard]] inline double plain_log(double x) {
   constexpr std::uint64_t sqrt_half = 0x3fe6a09e667f3bcd, one = 0x3ff0000000000000, low = 0x000fffffffffffff;
   constexpr double shift = 0x1p52;
-  // The exponent of x/sqrt(1/2) as an integer, made a double by the bits of 2^52 + n.
+  // The exponent of x/sqrt(1/2) as an integer, converted to a double through the bits of 2^52 + n.
   const std::uint64_t bits = std::bit_cast<std::uint64_t>(x) - sqrt_half + one;
   const double n = std::bit_cast<double>((bits >> 52) | std::bit_cast<std::uint64_t>(shift)) - (shift + 1023);
   const double m = std::bit_cast<double>((bits & low) + sqrt_half);
   const double s = (m - 1) / (m + 1), q = s * s;
-  // In pairs rather than by Horner's rule: a single call waits for fewer products.
+  // In pairs rather than by Horner's rule: a single call then waits for fewer products.
   const double q2 = q * q, q4 = q2 * q2;
   const double low_half = (1.0 / 3 + q * (1.0 / 5)) + q2 * (1.0 / 7 + q * (1.0 / 9));
   const double high_half = (1.0 / 11 + q * (1.0 / 13)) + q2 * (1.0 / 15 + q * (1.0 / 17));
@@ -44,13 +44,13 @@ namespace polybed::closures {
   return series * std::bit_cast<double>(power);
 }
 
-/// x^p for x from 1e-60 to 1e60 and p from -4 to 5, to 4e-13 relative, to 3e-15 for x from 0.1 to 10. Of less, and of
-/// 0, x times a finite number; of what is no number none.
+/// x^p for x from 1e-60 to 1e60 and p from -4 to 5, to 4e-13 relative, to 3e-15 for x from 0.1 to 10. For smaller x,
+/// and 0, x times a finite number; NaN for NaN.
 [[nodiscard]] inline double plain_power(double x, double p) {
   return x * plain_exp((p - 1) * plain_log(std::max(x, 1e-60)));
 }
 
-/// arctan x, to 8e-16 relative: of 1/x beyond 1, by the quarter of its angle, whose series is short.
+/// arctan x, to 8e-16 relative: from 1/x for x > 1, with a short series for a quarter of the angle.
 [[nodiscard]] inline double plain_arctan(double x) {
   const double size = std::abs(x), whole = std::min(size, 1.0) / std::max(size, 1.0);
   const double half = whole / (1 + std::sqrt(1 + whole * whole)), t = half / (1 + std::sqrt(1 + half * half));

@@ -5,14 +5,14 @@
 
 namespace polybed::closures {
 
-/// p = (p_0 + B)(rho/rho_0)^n - B, the short paper's liquid.
+/// p = (p_0 + B)(rho/rho_0)^n - B, as in the short paper.
 struct TaitLiquid {
   double reference_density;            ///< rho_0, kg/m3, at p_0
   double reference_pressure = 101325;  ///< p_0, Pa
   double stiffness = 3.0e8;            ///< B, Pa, > 0
   double exponent = 7;                 ///< n, > 0
 
-  /// rho, kg/m3, at an absolute pressure, Pa, above -B; not a number below, where the liquid would be torn.
+  /// rho, kg/m3, at an absolute pressure, Pa, above -B; NaN below, where the liquid would be torn.
   [[nodiscard]] double density(double pressure) const {
     return reference_density * std::pow((pressure + stiffness) / (reference_pressure + stiffness), 1 / exponent);
   }

@@ -1,4 +1,4 @@
-// Density and viscosity of water and air from the temperature.
+// Density and viscosity of water and air as functions of temperature.
 #pragma once
 
 namespace polybed::closures {

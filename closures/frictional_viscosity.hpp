@@ -1,4 +1,4 @@
-// Shear viscosity of solids in enduring contact: the frictional stress is a share of the pressure, whatever the rate.
+// Shear viscosity of solids in enduring contact: the frictional stress is a share of the pressure, at any rate.
 #pragma once
 
 #include <algorithm>
@@ -6,8 +6,8 @@
 
 namespace polybed::closures {
 
-/// |gamma| = sqrt(2 D':D' + gamma_0^2), 1/s, D' the deviator of the rate of strain; gamma_0 > 0 keeps a finite
-/// viscosity at rest, where solids then creep instead of standing.
+/// |gamma| = sqrt(2 D':D' + gamma_0^2), 1/s, D' the deviator of the rate of strain. gamma_0 > 0 keeps the viscosity
+/// finite at rest, where solids then creep instead of standing.
 /// \param strain  2 D':D', 1/s2: gamma^2 in simple shear
 [[nodiscard]] inline double shear_rate(double strain, double least) { return std::sqrt(strain + least * least); }
 
@@ -18,8 +18,8 @@ namespace polybed::closures {
   return std::min(std::max(pressure, 0.0) * sine / rate, cap);
 }
 
-/// mu(I) of dry grains, Jop, Forterre and Pouliquen (Nature 441, 2006, 727-730): mu_1 + (mu_2 - mu_1)/(1 + I_0/I), with
-/// I = D |gamma|/sqrt(p/rho). Glass beads: mu_1 = tan 20.9 deg, mu_2 = tan 32.76 deg, I_0 = 0.279.
+/// mu(I) for dry grains, Jop, Forterre and Pouliquen (Nature 441, 2006, 727-730): mu_1 + (mu_2 - mu_1)/(1 + I_0/I),
+/// with I = D |gamma|/sqrt(p/rho). Glass beads: mu_1 = tan 20.9 deg, mu_2 = tan 32.76 deg, I_0 = 0.279.
 struct InertialFriction {
   double slow = 0.38, fast = 0.64, crossing = 0.28;  ///< mu_1, mu_2, I_0
 
@@ -29,7 +29,7 @@ struct InertialFriction {
   }
 };
 
-/// mu_s = mu(I) p/|gamma|, Pa s, at most `cap`; 0 where nothing presses.
+/// mu_s = mu(I) p/|gamma|, Pa s, at most `cap`; 0 without pressure.
 /// \param pressure  p, Pa  \param rate  |gamma|, 1/s, > 0  \param diameter  m  \param density  of the grains, kg/m3
 [[nodiscard]] inline double viscosity_mu_i(const InertialFriction& friction, double pressure, double rate,
                                            double diameter, double density, double cap) {

@@ -1,12 +1,12 @@
-// History force of the fluid on a sphere: vorticity shed by past accelerations g = d(u_f - v)/dt of the slip.
+// History force of the fluid on a sphere, from past accelerations g = d(u_f - v)/dt of the slip, which shed vorticity.
 //
-// F(t) = 3 pi mu d int_0^t K(t - s) g(s) ds, where the slip starts from rest; a slip w_0 at the start would add 3 pi mu
-// d K(t) w_0. Basset's kernel is summed by the scheme of van Hinsberg, ten Thije Boonkkamp and Clercx (J. Comput. Phys.
-// 230, 2011, 1465): g is linear between times one step apart; the last N steps are integrated exactly, the singular one
-// among them; what is older goes through ten exponentials, each carried on by one multiplication. Second order in the
-// step, until the error of the exponentials shows.
+// F(t) = 3 pi mu d int_0^t K(t - s) g(s) ds for a slip that starts from rest; a slip w_0 at the start would add 3 pi mu
+// d K(t) w_0. Basset's kernel is summed with the scheme of van Hinsberg, ten Thije Boonkkamp and Clercx (J. Comput.
+// Phys. 230, 2011, 1465): g is linear between times one step apart; the last N steps, including the singular one, are
+// integrated exactly; older ones enter ten exponentials, each updated by one multiplication. Second order in the step,
+// until the error of the exponentials dominates.
 //
-// The newest g holds the particle's own dv/dt: its coefficient is given apart, as an inertia, and belongs on the left.
+// The newest g contains the particle's own dv/dt: its coefficient is returned separately, an inertia for the left side.
 #pragma once
 
 #include <array>
@@ -25,7 +25,7 @@ namespace polybed::closures {
 
 /// K = {[4 pi nu t/d^2]^(1/4) + [pi w^3 t^2/(nu d (0.75 + 0.105 Re_p)^3)]^(1/2)}^-2, Re_p = w d/nu (Mei and Adrian, J.
 /// Fluid Mech. 237, 1992, 323, calculations at Re_p 0.1-40; for a slip w that changes little): Basset's at first, t^-2
-/// later. Its w is that of the moment, so that sums cannot be carried on: it needs the past itself.
+/// later. It depends on the present w, so sums cannot be updated: it needs the whole past.
 /// \param time t > 0, s  \param slip w >= 0, m/s
 [[nodiscard]] inline double history_kernel_mei_adrian(double time, double diameter, double kinematic_viscosity,
                                                       double slip) {
@@ -41,13 +41,13 @@ namespace polybed::closures {
 }
 
 /// 1/sqrt(t) as a sum of a_i sqrt(e/t_i) exp(-t/(2 t_i)), t from 1 to 1e5 in units of the window (van Hinsberg et al.
-/// 2011). Beyond it falls below 1/sqrt(t): older slips are forgotten.
+/// 2011). Beyond, it falls below 1/sqrt(t): older slips lose their influence.
 struct BassetTail {
   static constexpr std::size_t terms = 10;
   std::array<double, terms> time, share;  ///< t_i, a_i
 };
 
-/// Ten fitted to the least greatest error, tests/unit/closures/basset_tail_fit.py: 0.126 % to t = 1e5.
+/// Ten terms with the least greatest error, tests/unit/closures/basset_tail_fit.py: 0.126 % to t = 1e5.
 inline constexpr BassetTail basset_tail_fitted{
     {0.3037829814794, 1.101875066371, 3.96024745792, 14.22725814, 51.11133376225, 183.6457712224, 660.8677489681,
      2413.573898021, 9978.490263909, 106197.7229658},
@@ -58,9 +58,9 @@ inline constexpr BassetTail basset_tail_fitted{
 template <std::size_t Window>
 struct BassetWeights {
   static_assert(Window > 0);
-  /// Of the newer and the older end of each step of the window, newest step first.
+  /// Weights of the newer and the older end of each step in the window, newest step first.
   std::array<double, Window> newer, older;
-  /// Of the step that leaves the window, and what is kept of the sums each step (no unit).
+  /// For the step that leaves the window, and the factor for the sums in each step (no unit).
   std::array<double, BassetTail::terms> tail_newer, tail_older, kept;
 };
 
@@ -80,8 +80,8 @@ struct RampsOfExponential {
   return sum;
 }
 
-/// Weights for steps of h: with p = sqrt(n+1), q = sqrt(n), the step from age n h to (n+1) h weighs
-/// (2/3) sqrt(h) (2p + q)/(p+q)^2 at its newer and (2/3) sqrt(h) (p + 2q)/(p+q)^2 at its older end.
+/// Weights for steps of h: with p = sqrt(n+1), q = sqrt(n), the step from age n h to (n+1) h has the weight (2/3)
+/// sqrt(h) (2p + q)/(p+q)^2 at its newer and (2/3) sqrt(h) (p + 2q)/(p+q)^2 at its older end.
 /// \param step h, s, > 0
 template <std::size_t Window>
 [[nodiscard]] BassetWeights<Window> basset_weights(const BassetTail& tail, double step) {
@@ -103,12 +103,12 @@ template <std::size_t Window>
   return w;
 }
 
-/// What a particle remembers between steps, (Window + 10) vectors and a number; empty: nothing happened yet.
+/// A particle's memory between steps, (Window + 10) vectors and a number; empty: no step yet.
 template <std::size_t Window>
 struct BassetHistory {
   std::array<Vec3, Window> past{};             ///< g one step ago, two steps ago, ..., m/s2
-  std::array<Vec3, BassetTail::terms> tail{};  ///< sums of what left the window, m/s^(3/2)
-  std::size_t known = 0;                       ///< how many of `past` there are
+  std::array<Vec3, BassetTail::terms> tail{};  ///< sums over steps older than the window, m/s^(3/2)
+  std::size_t known = 0;                       ///< number of valid entries in `past`
 };
 
 /// The sum without the newest g, m/s^(3/2): F = B (newest g + past), B the prefactor, newest = weights.newer[0], and 0
@@ -125,7 +125,7 @@ template <std::size_t Window>
   return sum;
 }
 
-/// The history one step later. \param acceleration g of now, m/s2
+/// Advances the history by one step. \param acceleration present g, m/s2
 template <std::size_t Window>
 [[nodiscard]] BassetHistory<Window> basset_step(const BassetWeights<Window>& weights,
                                                 const BassetHistory<Window>& history, const Vec3& acceleration) {

@@ -1,4 +1,4 @@
-// The densest random packing of spheres of several sizes, from the packings of each size alone.
+// The densest random packing of spheres of several sizes, from the packing of each size alone.
 #pragma once
 
 #include <algorithm>
@@ -8,13 +8,13 @@
 
 namespace polybed::closures {
 
-/// pi/sqrt(18): the solids fraction of equal spheres in a crystal, the densest that there is (Kepler; Hales 2005).
+/// pi/sqrt(18): the solids fraction of equal spheres in a crystal, the densest possible (Kepler; Hales 2005).
 inline constexpr double crystal_packing = 0.74048048969306104;
 
-/// A law of this file: phi_max of shares, diameters and packings.
+/// A law in this file: phi_max from shares, diameters and packings.
 using MixturePacking = double (*)(std::span<const double>, std::span<const double>, std::span<const double>);
 
-/// phi_max of two sizes after Fedors and Landel (Powder Technol. 23, 1979, 225-231). P_1, x_1 of the large, r = small
+/// phi_max of two sizes after Fedors and Landel (Powder Technol. 23, 1979, 225-231). P_1, x_1 for the large, r = small
 /// over large diameter, a = P_1 + (1-P_1) P_2:
 ///   x_1 <= P_1/a:  P_2 + [P_1 - P_2 + (1 - sqrt r)(1 - P_1) P_2] a x_1/P_1;  else  P_1 + (1 - sqrt r) a (1 - x_1).
 /// Continuous; P_2 and P_1 at its ends.
@@ -28,7 +28,7 @@ using MixturePacking = double (*)(std::span<const double>, std::span<const doubl
   return x1 <= p1 / a ? p2 + (p1 - p2 + gain * (1 - p1) * p2) * a * x1 / p1 : p1 + gain * a * (1 - x1);
 }
 
-/// The lesser of two numbers, with the corner between them rounded over a width: C1.
+/// The minimum of two numbers, with the corner between them rounded over a width: C1.
 [[nodiscard]] inline double rounded_minimum(double a, double b, double width) {
   const double h = std::max(width - std::abs(a - b), 0.0) / width;
   return std::min(a, b) - 0.25 * width * h * h;

@@ -6,17 +6,17 @@
 //   theta^3 = 1 - [(-1)^k (F - F_k) + 2 mu dF_n]/(2 mu F_n) unloading (k = 1) and reloading (k = 2),
 // theta = 1 while |dF| < mu dF_n. F_k, the force at the last reversal, follows the normal force: F_k -= (-1)^k mu dF_n.
 //
-// F counts against the displacement: the force on i is -F. The law keeps one reversal to each side. Unloading past
-// minus its reversal is loading the other way; reloading up to the reversal from which it was unloaded is loading
-// again. Loops within loops deeper than that are not remembered.
+// F is opposite to the displacement: the force on i is -F. The law stores one reversal on each side. Unloading past
+// minus its reversal is loading in the other direction; reloading up to the reversal at which unloading began is
+// loading again. Deeper loops within loops are not stored.
 #pragma once
 
 namespace polybed::closures {
 
 /// Cube root from + - * / alone: the same bits on every machine, and a loop over it is vectorised. x^(1/3) for x in [0,
-/// 1], to 1.5e-16 relative for x >= 2^-96 (root 2e-10), which is less than std::cbrt's own error; below to 1e-10
-/// absolute; 0 gives 0. Beyond [0, 1] clamps. Scaled by powers of 8 into [1/8, 1], then four Newton steps from a
-/// parabola that is right to 2 %.
+/// 1], to 1.5e-16 relative for x >= 2^-96 (root 2e-10), less than std::cbrt's own error; below to 1e-10 absolute; 0
+/// gives 0. Clamps outside [0, 1]. Scales by powers of 8 into [1/8, 1], then takes four Newton steps from a parabola
+/// accurate to 2 %.
 [[nodiscard]] inline double cube_root_of_share(double x) {
   double y = x < 1 ? x : 1, scale = 1;
   const auto reduce = [&](double below, double root) {
@@ -34,16 +34,16 @@ namespace polybed::closures {
   return x > 0 ? scale * root : 0;
 }
 
-/// A contact starts with all zero and side 1.
+/// A contact starts with zeros and side 1.
 struct MindlinDeresiewicz {
   double force = 0;        ///< F, N
-  double unloaded_at = 0;  ///< F_1 times side: where loading was last reversed
+  double unloaded_at = 0;  ///< F_1 times side: at the last reversal of loading
   double reloaded_at = 0;  ///< F_2 times side
   double branch = 0;       ///< k = 0, 1, 2
-  double side = 1;         ///< 1 or -1: the sense in which branch 0 loads
+  double side = 1;         ///< 1 or -1: the direction of loading in branch 0
 };
 
-/// What a step needs. Radius a and F_n of this step, at the end; the change of F_n over it.
+/// Input of a step: radius a and F_n at its end; the change of F_n over it.
 struct MindlinDeresiewiczStep {
   double stiffness;      ///< 8 G* a, N/m
   double displacement;   ///< dxi, m
@@ -52,10 +52,10 @@ struct MindlinDeresiewiczStep {
   double normal_change;  ///< dF_n, N
 };
 
-/// The branch on which this step goes on, from the sense of dxi: a reversal stores the present force.
+/// The branch of this step, from the direction of dxi: a reversal stores the present force.
 [[nodiscard]] inline MindlinDeresiewicz branch_of_step(MindlinDeresiewicz state, double displacement) {
-  // No force yet, or all of it gone on a loading branch: load the way it moves. Flags are numbers: g++ 12 vectorises no
-  // select between conditions.
+  // Without a force, or with a vanished one on a loading branch: load in the direction of motion. Flags are numbers, as
+  // g++ 12 does not vectorise a select between conditions.
   const double loading = state.branch == 0 ? 1.0 : 0.0, unloading = state.branch == 1 ? 1.0 : 0.0;
   const double fresh = state.side * state.force <= 0 ? loading : 0.0;
   state.side = fresh > 0 ? (displacement < 0 ? -1.0 : 1.0) : state.side;
@@ -67,8 +67,8 @@ struct MindlinDeresiewiczStep {
   return state;
 }
 
-/// theta in [0, 1]: share of the contact's stiffness that has not slipped. Force, move and k seen from the state's
-/// side.
+/// theta in [0, 1]: share of the contact's stiffness that has not slipped. Force, displacement and k relative to the
+/// state's side.
 [[nodiscard]] inline double stick_share(const MindlinDeresiewicz& state, const MindlinDeresiewiczStep& step) {
   const double force = state.side * state.force, limit = step.friction * step.normal_force;
   const double change = step.friction * step.normal_change;

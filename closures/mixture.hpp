@@ -26,11 +26,11 @@ namespace polybed::closures {
   return voidage * omega + (1 - voidage) * poly_index * poly_index;
 }
 
-/// What all species of a cell have in common.
+/// Numbers common to all species in a cell.
 struct Composition {
   double per_mean;        ///< sum x_j / D_j, the inverse of the Sauter diameter, 1/m
   double average;         ///< sum x_j D_j, m
-  double largest;         ///< the greatest D_j, that of an absent species too, m
+  double largest;         ///< the greatest D_j, including absent species, m
   double per_square = 0;  ///< sum x_j / D_j^2, 1/m2; only for laws that need it
 };
 [[nodiscard]] inline Composition composition_of(std::span<const double> share, std::span<const double> diameter) {
@@ -44,13 +44,13 @@ struct Composition {
   return sum;
 }
 
-/// A cell as a law of mixtures sees it. per_mean: 1/mean, so that a loop over cells divides once.
+/// A cell as input to a mixture law. per_mean: 1/mean, so that a loop over cells divides once.
 struct MixtureCell {
   double voidage, mean, per_mean;
-  double coefficient;  ///< the law's own number, the same for all species
+  double coefficient;  ///< the law's own number, common to all species
 };
 
-/// One species' drag in a mixture, as every law of the menu can be written:
+/// One species' drag in a mixture, in the form common to all laws in the menu:
 /// f_j = offset + factor f_base(voidage, rho_f |u_j| length / mu).
 struct MixtureTerms {
   double voidage, length, offset, factor;
@@ -61,8 +61,8 @@ struct MixtureTerms {
   return (1 - voidage) * (crossing - voidage) / (crossing * voidage);
 }
 
-/// h with its guard G4: taken at eps >= 0.35, and not below -0.95 y_m/(y_max - 1), which keeps Omega_j > 0
-/// for every mixture and the sum rule exact. Without a branch: of equal sizes the bound is huge, not infinite.
+/// h with its guard G4: evaluated at eps >= 0.35, and not below -0.95 y_m/(y_max - 1), which keeps Omega_j > 0 for
+/// every mixture and the sum rule exact. Branch-free: the bound is huge, not infinite, for equal sizes.
 [[nodiscard]] inline double cello_h_guarded(double voidage, double y_max, double y_m, double crossing = 0.73) {
   return std::max(cello_h(std::max(voidage, 0.35), crossing), -0.95 * y_m / std::max(y_max - 1, 1e-300));
 }

@@ -1,9 +1,9 @@
-// The drag laws of mixtures, each as f_j = offset_j + factor_j f_base(eps_j, Re_j): see MixtureTerms.
+// The mixture drag laws, each as f_j = offset_j + factor_j f_base(eps_j, Re_j): see MixtureTerms.
 //
-// Each struct has the base law, coefficient(eps, composition), what the law needs once per cell, and term(cell,
-// diameter, share) of one species; both are pure, and better without branches, so that loops over cells run at vector
-// speed. The sum rule sum x_j f_j / y_j^2 = f_mean, T(3.45), is what gives the right pressure drop; obeys_sum_rule says
-// who keeps it. A law with `shares` may also share the drag of another mean law among the species: see Partition.
+// Each struct has the base law, coefficient(eps, composition), computed once per cell, and term(cell, diameter, share)
+// for one species; both are pure, and preferably branch-free, so that loops over cells are vectorised. The sum rule sum
+// x_j f_j / y_j^2 = f_mean, T(3.45), gives the right pressure drop; obeys_sum_rule marks the laws that satisfy it. A
+// law with `shares` can also distribute another mean law's drag among the species: see Partition.
 #pragma once
 
 #include <algorithm>
@@ -17,19 +17,19 @@
 
 namespace polybed::closures {
 
-/// A law that is not of this form: a medium for each cell, an array of numbers, then f_j of each species in it.
+/// A law not of this form: it computes a medium for each cell, an array of numbers, then f_j of each species in it.
 template <class Law>
 concept HasMedium = requires {
   typename Law::Medium;
 };
 
-/// The cell as the law sees it: its composition, and the law's coefficient.
+/// The cell as input to the law: its composition, and the law's coefficient.
 template <class Law>
 [[nodiscard]] MixtureCell mixture_cell(const Law& law, double eps, const Composition& composition) {
   return {eps, 1 / composition.per_mean, composition.per_mean, law.coefficient(eps, composition)};
 }
 
-/// Omega_j = y_j [1 + h(eps)(y_j - 1)/y_m], T(4.18)-(4.21), (4.28), of a mean law.
+/// Omega_j = y_j [1 + h(eps)(y_j - 1)/y_m], T(4.18)-(4.21), (4.28), with a mean law.
 template <class Mean>
 struct CelloShares {
   static constexpr std::string_view name = "cello", help = DragCello::help, source = DragCello::source;
@@ -40,7 +40,7 @@ struct CelloShares {
   static constexpr bool mean_is_base = true;
   using Base = Mean;
   Base base;
-  /// 1 - gamma: that of the base law if it has one.
+  /// 1 - gamma: the base law's if it has one.
   [[nodiscard]] double crossing() const {
     if constexpr (requires { base.constants.crossing; }) return base.constants.crossing;
     return PublishedCello::constants.crossing;
@@ -137,12 +137,12 @@ struct MixturePatwardhanTien {
   [[nodiscard]] static double half_gap(double eps, double mean_diameter) {
     return mean_diameter * (1 / std::cbrt(std::max(1 - eps, 0.0)) - 1);
   }
-  /// eps_j of one species in a shell as thick as delta.
+  /// eps_j for one species in a shell of thickness delta.
   [[nodiscard]] static double voidage_around(double diameter, double gap) {
     const double ratio = 1 + gap / diameter;
     return 1 - 1 / (ratio * ratio * ratio);
   }
-  /// eps_j of one species.
+  /// eps_j for one species.
   [[nodiscard]] static double own_voidage(double eps, double diameter, double mean_diameter) {
     return voidage_around(diameter, half_gap(eps, mean_diameter));
   }
@@ -152,7 +152,7 @@ struct MixturePatwardhanTien {
   }
 };
 
-/// f_j = x_j f_gidaspow(eps, Re), T(3.37), Syamlal 1985; for comparison only: it breaks the sum rule.
+/// f_j = x_j f_gidaspow(eps, Re), T(3.37), Syamlal 1985; for comparison only: it violates the sum rule.
 struct MixtureSyamlal {
   static constexpr std::string_view name = "syamlal", help = "gidaspow times the share of the species; for comparison";
   static constexpr std::string_view source = "Syamlal 1985; Cello 2009, eq. 3.37";
@@ -166,7 +166,7 @@ struct MixtureSyamlal {
   }
 };
 
-/// A law of one size named for a mixture: it acts on each species with its own Re_j, as in T(5.13).
+/// A law of one size used for a mixture: it acts on each species with its own Re_j, as in T(5.13).
 template <class Law>
 struct EachSpecies {
   static constexpr std::string_view name = Law::name, help = Law::help, source = Law::source;

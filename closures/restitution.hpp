@@ -1,8 +1,8 @@
-// Damping ratio of a contact from the restitution that it shall have. For set-up: uses logarithms.
+// Damping ratio of a contact from the required restitution. For set-up: uses logarithms.
 //
 // A contact with spring F = K delta^p and dashpot c = 2 zeta sqrt(S m*), S = dF/d(delta), loses the same share of its
 // speed at every speed for p = 1 (linear, zeta = beta) and p = 3/2 (Hertz, zeta = sqrt(5/6) beta), and both have the
-// same e(beta). Near separation the dashpot exceeds the spring; "kept" lets it attract, "clipped" ends the force there.
+// same e(beta). Near separation the dashpot exceeds the spring: "kept" allows attraction, "clipped" ends the force.
 #pragma once
 
 #include <algorithm>
@@ -19,10 +19,10 @@ namespace polybed::closures {
   return -log_e / std::sqrt(std::numbers::pi * std::numbers::pi + log_e * log_e);
 }
 
-/// Restitution realised with the tail clipped (Schwager and Poeschel, Granular Matter 9, 2007, 465):
+/// Restitution with the tail clipped (Schwager and Poeschel, Granular Matter 9, 2007, 465):
 ///   exp[-(beta/s) atan2(2 beta s, 2 beta^2 - 1)], s = sqrt(1 - beta^2), for beta < 1,
 ///   exp[-(beta/s) ln((beta + s)/(beta - s))], s = sqrt(beta^2 - 1), above; exp(-2) at 1. beta >= 0.
-/// Written with the half angle, so that neither side cancels next to 1.
+/// Written with the half angle, which avoids cancellation on both sides of 1.
 [[nodiscard]] inline double restitution_clipped(double beta) {
   const double s = std::sqrt(std::abs((1 - beta) * (1 + beta)));
   if (s == 0) return std::exp(-2.0);
@@ -30,11 +30,11 @@ namespace polybed::closures {
   return std::exp(-2 * beta * half / s);
 }
 
-/// Least restitution that the clipped law is solved for; below, its damping ratio is used.
+/// Least restitution for which the clipped law is solved; below it the damping ratio is constant.
 inline constexpr double least_restitution_clipped = 0.05;
 
-/// Solves restitution_clipped(beta) = e by bisection to the last bit. e in [0.05, 1]; below uses 0.05 (the caller says
-/// so), above 1 gives 0.
+/// Solves restitution_clipped(beta) = e by bisection to the last bit. e in [0.05, 1]; below uses 0.05 (the caller
+/// reports it), above 1 gives 0.
 [[nodiscard]] inline double damping_ratio_clipped(double restitution) {
   if (!(restitution < 1)) return 0;
   const double e = std::max(restitution, least_restitution_clipped);

@@ -1,6 +1,6 @@
-// Moments that resist rolling (Ai, Chen, Rotter and Ooi, Powder Technol. 206, 2011, 269): their type A with a constant
-// torque ("cdt") and their type C, an elastic-plastic spring and dashpot ("epsd"). Moments act on i, on j with the
-// opposite sign; w_rel = w_i - w_j.
+// Moments that resist rolling (Ai, Chen, Rotter and Ooi, Powder Technol. 206, 2011, 269): type A, a constant torque
+// ("cdt"), and type C, an elastic-plastic spring and dashpot ("epsd"). Moments act on i, and on j with the opposite
+// sign; w_rel = w_i - w_j.
 #pragma once
 
 #include <cmath>
@@ -9,7 +9,7 @@
 
 namespace polybed::closures {
 
-/// Moment and the history it leaves: the moment of the spring, N m.
+/// Moment and its history: the moment of the spring, N m.
 struct RollingMoment {
   Vec3 moment, spring;
 };
@@ -19,7 +19,7 @@ struct RollingMoment {
   return normal_force > 0 ? rolling_friction * reduced_radius * normal_force : 0;
 }
 
-/// cdt: -mu_r R* F_n w_rel/|w_rel|; none without relative spin. Suits contacts that move: at rest it flickers.
+/// cdt: -mu_r R* F_n w_rel/|w_rel|; zero without relative spin. For moving contacts: at rest it oscillates.
 [[nodiscard]] inline Vec3 rolling_cdt(double limit, const Vec3& relative_spin) {
   const double spin_squared = dot(relative_spin, relative_spin);
   const bool turns = spin_squared > 0;
@@ -38,12 +38,12 @@ struct RollingMoment {
   return 1 / (1 / (inertia_i + mass_i * radius_i * radius_i) + 1 / (inertia_j + mass_j * radius_j * radius_j));
 }
 
-/// c_r = 2 eta sqrt(I_r k_r), N m s. \param damping_ratio eta, 0 for none, about 0.3 in the source
+/// c_r = 2 eta sqrt(I_r k_r), N m s. \param damping_ratio eta, 0 for no damping, about 0.3 in the source
 [[nodiscard]] inline double rolling_damping(double damping_ratio, double inertia, double stiffness) {
   return 2 * damping_ratio * std::sqrt(inertia * stiffness);
 }
 
-/// epsd: the spring takes -k_r w_rel dt and is capped at mu_r R* F_n; -c_r w_rel is added while it is not at the cap.
+/// epsd: adds -k_r w_rel dt to the spring, limits it to mu_r R* F_n, and adds -c_r w_rel while it is below the limit.
 /// \param spring moment of the spring before this step
 [[nodiscard]] inline RollingMoment rolling_epsd(const Vec3& spring, const Vec3& relative_spin, double stiffness,
                                                 double damping, double limit, double time_step) {

@@ -11,7 +11,7 @@ namespace {
 using Eigen::Index;
 using Vector = Eigen::VectorXd;
 
-/// A Gauss quadrature: nodes in rising order, weights that sum to 1.
+/// A Gauss quadrature: nodes in increasing order, weights that sum to 1.
 struct Quadrature {
   Vector node, weight;
 };
@@ -31,8 +31,8 @@ Quadrature gauss_legendre(Index count) {
   return golub_welsch(Vector::Zero(count), beside);
 }
 
-/// The Gauss quadrature of `count` nodes of a discrete measure with more points than that: Lanczos with full
-/// reorthogonalisation, which keeps the coefficients to round-off.
+/// The Gauss quadrature with `count` nodes for a discrete measure with more points than that: Lanczos with full
+/// reorthogonalisation, which keeps the coefficients accurate to round-off.
 Quadrature gauss_of(const Vector& point, const Vector& weight, Index count) {
   Eigen::MatrixXd basis(point.size(), count);
   Vector diagonal(count), beside(count - 1);
@@ -49,7 +49,7 @@ Quadrature gauss_of(const Vector& point, const Vector& weight, Index count) {
   return golub_welsch(diagonal, beside);
 }
 
-/// Classes in units of `unit` from the quadrature of X D^-N, whose whole weight is `moment`, M_-N in that unit.
+/// Classes in units of `unit` from the quadrature of X D^-N, with total weight `moment`, M_-N in that unit.
 std::vector<SizeClass> classes_of(const Quadrature& quadrature, double moment, double unit) {
   std::vector<SizeClass> classes;
   for (Index n = 0; n < quadrature.node.size(); ++n) {
@@ -77,7 +77,7 @@ double sieve_moment(std::span<const double> opening, std::span<const double> sha
 
 std::vector<SizeClass> lognormal_classes(double median, double deviation, int count) {
   const double square = deviation * deviation, q = std::exp(-square);
-  // In units of the median of X D^-N, which is again log-normal: median q^N.
+  // In units of the median of X D^-N, which is also log-normal: median q^N.
   Vector diagonal(count), beside(count - 1);
   for (int n = 0; n < count; ++n) {
     diagonal[n] = (1 + q * -std::expm1(-n * square)) * std::pow(q, -2 * n - 0.5);

@@ -1,11 +1,11 @@
-// Momentum that two solid species exchange: collisions after Syamlal 1987, and contact in a packed bed after Gera 2004.
+// Momentum exchange between two solid species: collisions after Syamlal 1987, contact in a packed bed after Gera 2004.
 #pragma once
 
 #include <numbers>
 
 namespace polybed::closures {
 
-/// What a pair of species is made of; symmetric in its members.
+/// Properties of a pair of species; symmetric in its members.
 struct SpeciesPair {
   double diameter_j, diameter_k;  ///< m
   double density_j, density_k;    ///< kg/m3
@@ -21,11 +21,11 @@ struct SpeciesPair {
                            per_voidage * per_voidage;
 }
 
-/// K_jk / (phi_j phi_k), kg/(m3 s): finite where a species vanishes, the same for (j, k) and (k, j).
+/// K_jk / (phi_j phi_k), kg/(m3 s): finite if a species vanishes, the same for (j, k) and (k, j).
 ///   3 (1+e)(pi/2 + C_f pi^2/8)(D_j+D_k)^2 rho_j rho_k g0 |U_j - U_k| / [2 pi (rho_j D_j^3 + rho_k D_k^3)] +
 ///   C_s p_s/phi^2
 /// \param g0       radial_distribution  \param speed  |U_j - U_k|, m/s
-/// \param contact  C_s p_s / phi^2, kg/(m3 s): friction of a packed bed, 0 where nothing is packed
+/// \param contact  C_s p_s / phi^2, kg/(m3 s): friction in a packed bed, 0 without packing
 [[nodiscard]] inline double species_exchange(const SpeciesPair& pair, double g0, double speed, double contact) {
   constexpr double pi = std::numbers::pi;
   const double reach = pair.diameter_j + pair.diameter_k;

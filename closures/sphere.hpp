@@ -1,4 +1,4 @@
-// The sphere that every particle is. All SI.
+// Geometry of a spherical particle. All SI.
 #pragma once
 
 #include <numbers>

@@ -11,8 +11,8 @@ struct StressValue {
   double slope;     ///< dp_s/dphi, Pa
 };
 
-/// p_f = Fr (phi - phi_min)^2 / (phi_max - phi)^5 above phi_min, 0 below; beyond phi_max - 0.005 its tangent,
-/// so that it is C1 everywhere, has no pole, and answers for any phi.
+/// p_f = Fr (phi - phi_min)^2 / (phi_max - phi)^5 above phi_min, 0 below; beyond phi_max - 0.005 its tangent, so that
+/// it is C1 everywhere, has no pole, and is defined for any phi.
 struct FrictionalLaw {
   double strength = 0.05;     ///< Fr, Pa
   double onset = 0.5;         ///< phi_min
@@ -20,10 +20,10 @@ struct FrictionalLaw {
 
   static constexpr double margin = 0.005;  ///< distance from phi_max at which the tangent begins
 
-  /// p_f and dp_f/dphi at a solids fraction, any finite number.
+  /// p_f and dp_f/dphi at any finite solids fraction.
   [[nodiscard]] StressValue operator()(double solids_fraction) const { return at(solids_fraction, max_packing); }
 
-  /// The same with another maximum packing, e.g. that of a cell's composition.
+  /// The same with another maximum packing, for example from a cell's composition.
   [[nodiscard]] StressValue at(double solids_fraction, double packing) const {
     const double joint = packing - margin;
     const double phi = std::clamp(solids_fraction, onset, joint);
@@ -34,7 +34,7 @@ struct FrictionalLaw {
     return {pressure + slope * std::max(solids_fraction - joint, 0.0), slope};
   }
 
-  /// The solids fraction, above phi_min, that carries a pressure, Pa, >= 0. To round-off, by bisection and Newton.
+  /// The solids fraction, above phi_min, with a given pressure, Pa, >= 0. To round-off, by bisection and Newton.
   [[nodiscard]] double solids_fraction_at(double pressure) const {
     if (pressure <= 0) return onset;
     const double joint = max_packing - margin;
@@ -54,8 +54,8 @@ struct FrictionalLaw {
   }
 };
 
-/// The maximum packing at which solids of a given fraction carry a given pressure: solves p_f(phi; phi_max) =
-/// p for phi_max in closed form, phi_max = phi + [Fr (phi - phi_min)^2 / p]^(1/5).
+/// The maximum packing at which solids of a given fraction have a given pressure: solves p_f(phi; phi_max) = p for
+/// phi_max in closed form, phi_max = phi + [Fr (phi - phi_min)^2 / p]^(1/5).
 /// \param solids_fraction  phi > onset
 /// \param pressure  p, Pa, > 0
 [[nodiscard]] double max_packing_for(double solids_fraction, double pressure, double strength, double onset);

@@ -1,4 +1,4 @@
-// Measured stress of sheared particles over a closed form, as functions of the solids fraction and, of wet particles,
+// Measured stress of sheared particles over a closed form, as functions of the solids fraction and, for wet particles,
 // of the shear's Stokes number.
 #pragma once
 
@@ -13,21 +13,21 @@ namespace polybed::closures {
 
 /// Ratios at one Stokes number, or for all of them.
 struct RatioCurves {
-  double stokes = 0;  ///< 0 of dry particles
+  double stokes = 0;  ///< 0 for dry particles
   MonotoneCurve pressure, viscosity, dissipation;
 };
 
-/// Value and slope with phi of each ratio.
+/// Value and slope in phi of each ratio.
 struct RatioValues {
   StressValue pressure, viscosity, dissipation;
 };
 
-/// Ratios at any phi and Stokes number: the cubic of each curve in phi, linear in ln(stokes) between two; beyond the
-/// range in either the value of the edge is held. C1 in phi.
+/// Ratios at any phi and Stokes number: each curve is cubic in phi, linear in ln(stokes) between two; outside the range
+/// they are constant in either. C1 in phi.
 class StressRatios {
  public:
   StressRatios() = default;
-  /// \param curves  at least one, of rising stokes, all above 0 if there are several
+  /// \param curves  at least one; stokes increases, and is above 0 if there are several
   explicit StressRatios(std::vector<RatioCurves> curves) : curves_(std::move(curves)) {}
 
   [[nodiscard]] RatioValues operator()(double phi, double stokes) const {
@@ -44,7 +44,7 @@ class StressRatios {
   [[nodiscard]] double first() const { return curves_.front().pressure.first(); }
   [[nodiscard]] double last() const { return curves_.front().pressure.last(); }
   [[nodiscard]] const std::vector<RatioCurves>& curves() const { return curves_; }
-  /// Whether a point lies outside what was measured.
+  /// Whether a point is outside the measured range.
   [[nodiscard]] bool outside(double phi, double stokes) const {
     return phi < first() || phi > last() || (curves_.size() > 1 && stokes < curves_.front().stokes) ||
            (curves_.size() > 1 && stokes > curves_.back().stokes);
@@ -60,7 +60,7 @@ class StressRatios {
   std::vector<RatioCurves> curves_;
 };
 
-/// Stress of wet particles in shear: p and dp/dphi, Pa, and mu_s, Pa s.
+/// Stress in sheared wet particles: p and dp/dphi, Pa, and mu_s, Pa s.
 struct WetStress {
   double pressure, slope, viscosity;
 };

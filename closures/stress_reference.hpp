@@ -1,5 +1,5 @@
-// Closed forms that measured stresses of sheared particles are divided by, so that a table holds numbers near 1, and
-// the numbers that tell which of them a scene calls for. phi solids fraction, gamma shear rate, theta = <v'^2>/3.
+// Closed forms that divide measured stresses of sheared particles, so that a table contains numbers near 1, and the
+// numbers that select the form for a scene. phi solids fraction, gamma shear rate, theta = <v'^2>/3.
 #pragma once
 
 #include <algorithm>
@@ -24,13 +24,13 @@ namespace polybed::closures {
   return phi.back();
 }
 
-/// e - 1.5 mu_p exp(-3 mu_p): restitution of smooth spheres that lose as much as rough ones (the same source).
+/// e - 1.5 mu_p exp(-3 mu_p): restitution of smooth spheres with the same losses as rough ones (the same source).
 [[nodiscard]] inline double effective_restitution(double restitution, double friction) {
   return restitution - 1.5 * friction * std::exp(-3 * friction);
 }
 
-/// p/(mu_f gamma) of a suspension at St -> 0: (phi/(phi_m - phi))^2, Boyer, Guazzelli and Pouliquen (Phys. Rev. Lett.
-/// 107, 2011, 188301), and its slope. From phi_m - 0.01 on its tangent, so that it has no pole. phi >= 0.
+/// p/(mu_f gamma) for a suspension at St -> 0: (phi/(phi_m - phi))^2, Boyer, Guazzelli and Pouliquen (Phys. Rev. Lett.
+/// 107, 2011, 188301), and its slope. Its tangent above phi_m - 0.01, so that it has no pole. phi >= 0.
 [[nodiscard]] inline RadialValue viscous_stress_form(double phi, double jammed) {
   constexpr double margin = 0.01;
   const double at = std::min(phi, jammed - margin), gap = jammed - at, root = at / gap;
@@ -38,7 +38,7 @@ namespace polybed::closures {
   return {root * root + slope * (phi - at), slope};
 }
 
-/// theta/(gamma d)^2 = mu*/Gamma* of steady simple shear without a fluid.
+/// theta/(gamma d)^2 = mu*/Gamma* in steady simple shear without a fluid.
 [[nodiscard]] inline double shear_temperature(double viscosity_star, double dissipation_star) {
   return viscosity_star / dissipation_star;
 }

@@ -1,4 +1,4 @@
-// Terminal velocity of a single sphere under any law of the pure drag.
+// Terminal velocity of a single sphere for any pure drag law.
 #pragma once
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// A vector of three doubles for closures that turn or cap one. Every operation is written out, so that a loop over
+// A vector of three doubles for closures that rotate or limit one. Every operation is written out, so that a loop over
 // contacts is vectorised and its results do not depend on the order of a library's sums.
 #pragma once
 
@@ -15,7 +15,7 @@ struct Vec3 {
 [[nodiscard]] inline Vec3 cross(const Vec3& a, const Vec3& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
-/// a where `first`, else b: three selects.
+/// a if `first`, else b: three selects.
 [[nodiscard]] inline Vec3 select(bool first, const Vec3& a, const Vec3& b) {
   return {first ? a.x : b.x, first ? a.y : b.y, first ? a.z : b.z};
 }
