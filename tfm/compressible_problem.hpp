@@ -1,4 +1,4 @@
-// The model of a compressible fluid as ordinary differential equations: the pressure is an unknown like the others.
+// The model of a compressible fluid as ordinary differential equations: the pressure is one of the unknowns.
 #pragma once
 
 #include <cstdint>

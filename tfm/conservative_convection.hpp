@@ -1,9 +1,9 @@
-// Convection of momentum in conservative form: what leaves one face's momentum arrives on the next.
+// Convection of momentum in conservative form: momentum that leaves one face arrives at the next.
 //
-//   a = -[div(F U) - U div F] / phi,   phi = phi_j, F = F_j of a species; phi = eps, F = J - sum F_j of the fluid
+//   a = -[div(F U) - U div F] / phi,   phi = phi_j, F = F_j for a species; phi = eps, F = J - sum F_j for the fluid
 //
-// with fluid/convection.hpp and the fluxes of continuity, so that with (1) the sum of phi rho U over faces changes by
-// what crosses the ends alone.
+// with fluid/convection.hpp and the fluxes of continuity, so that with (1) the sum of phi rho U over faces changes only
+// by flow through the ends.
 #pragma once
 
 #include "fluid/boundaries.hpp"
@@ -11,13 +11,13 @@
 
 namespace polybed::tfm {
 
-/// Least fraction of species j that its momentum's convection is divided by: 1e-3 of all solids, shared as in the bed,
-/// so that a species may be cut in two; an empty species has something left to be divided by.
+/// Least fraction of species j as a divisor of its momentum's convection: 1e-3 of all solids, shared as in the bed, so
+/// that a species can be split in two; an empty species then has a finite divisor.
 [[nodiscard]] inline double momentum_floor(double bed_share) { return 1e-3 * (bed_share > 0 ? bed_share : 1.0); }
 
 class ConservativeConvection {
  public:
-  /// limited: velocities are carried with half a limited slope; otherwise from upwind alone.
+  /// limited: velocities are upwind with half a limited slope; otherwise upwind alone.
   ConservativeConvection(const Constants&, const fluid::Boundaries&, bool limited);
 
   /// Called by continuity(), in this order: before all fluxes; for the flux of each species, whose ghosts are filled;
@@ -33,7 +33,7 @@ class ConservativeConvection {
   const Constants& constants_;
   const fluid::Boundaries& boundaries_;
   bool limited_;
-  core::FaceField fluid_flux_;  ///< J - sum F_j, m/s, ghosts of other cells included
+  core::FaceField fluid_flux_;  ///< J - sum F_j, m/s, with ghosts owned by other cells
 };
 
 }  // namespace polybed::tfm

@@ -1,4 +1,4 @@
-// The model as ordinary differential equations: the pressure is solved for in every right-hand side.
+// The model as ordinary differential equations: every right-hand side includes a solve for the pressure.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@ namespace polybed::tfm {
 
 class ExplicitProblem : public core::SplitProblem {
  public:
-  /// \param split  the fast part of the drag can be taken apart
+  /// \param split  the fast part of the drag can be separated
   ExplicitProblem(RightHandSide& equations, const StateLayout& layout, double pressure_tolerance, core::Timers& timers,
                   bool split = false);
 
@@ -26,9 +26,9 @@ class ExplicitProblem : public core::SplitProblem {
   }
   void solve_fast(double gamma, std::span<double> x) override { fast_->solve(gamma, x); }
 
-  /// An integration begins: what comes next depends on the state alone.
+  /// Starts an integration: further solves depend on the state alone.
   void begin() { pressure_.forget(); }
-  /// Called before a step: what is left of div J is halved within two steps of length h, s.
+  /// Called before a step: the remaining div J is halved within two steps of length h, s.
   void begin_step(double h) { correction_rate_ = h > 0 ? 0.5 / h : 0; }
 
   [[nodiscard]] std::uint64_t solves() const { return solves_; }

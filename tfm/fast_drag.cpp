@@ -13,7 +13,7 @@ using core::Index;
 
 namespace {
 
-constexpr std::size_t block = 64;  ///< faces taken at once, so that what is summed on them stays in the first cache
+constexpr std::size_t block = 64;  ///< faces computed together, so that their sums stay in the first-level cache
 
 }  // namespace
 
@@ -168,7 +168,7 @@ void FastDrag::add_with_inertia(const Faces& faces, std::size_t begin, std::size
       push -= phi * (1 - k) * faces.b[n][f] * (fluid - y[faces.velocity[n] + f]);
       pressed += phi * k * on_solids;
     }
-    // What drag, and what a unit gradient of pressure, do to the total flux: the gradient holds it.
+    // Effect of drag, and of a unit gradient of pressure, on the total flux: the gradient keeps it constant.
     double flux = eps * push / mass, mobility = eps * pressed / mass;
     for (std::size_t n = 0; n < species; ++n) {
       const double phi = faces.phi[n][f], k = faces.share[n][f], free = (1 - k) / constants_.density[n];

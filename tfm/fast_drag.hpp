@@ -1,13 +1,13 @@
-// The part of the drag that is too fast for explicit steps, on each face by itself: linear in the velocities, with
-// coefficients that hold for a step. What remains of the equations is left to the explicit part.
+// The part of the drag that is too fast for explicit steps, on each face separately: linear in the velocities, with
+// coefficients that are constant during a step. The explicit part contains the rest of the equations.
 //
 //   dU_j/dt = [ b_j (U_f - U_j) - G ] / rho_j,    U_f = (J - sum_k phi_k U_k) / eps,    dJ/dt = 0
 //   B G = sum_k phi_k b_k (1/rho_k - 1/rho_f) (U_f - U_k),    B = eps/rho_f + sum_k phi_k/rho_k
 //
-// G is the gradient of pressure that holds the total flux against the drag where flow goes along one axis. The rate at
-// which the rest relaxes has the square of the difference of densities in it, sum_k phi_k b_k (1/rho_f - 1/rho_k)^2/B:
-// a few hundredths of that of the drag in a liquid, about all of it in a gas. In form B, G is 0: it acts on the fluid
-// alone, whose flux is held.
+// G is the gradient of pressure that keeps the total flux constant against the drag for flow along one axis. The
+// relaxation rate of the rest is proportional to the squared difference of densities, sum_k phi_k b_k (1/rho_f -
+// 1/rho_k)^2/B: a few hundredths of the drag's rate in a liquid, about all of it in a gas. In form B, G is 0: it acts
+// on the fluid alone, whose flux is constant.
 //
 // With added mass, k_j = C_m rho_f/(rho_j + C_m rho_f), and s_j = 1, s_f = eps (form A) or s_j = 0, s_f = 1 (form B):
 //
@@ -25,7 +25,7 @@
 
 namespace polybed::tfm {
 
-/// The rate, 1/s, at which what FastDrag leaves relaxes; species are added one by one.
+/// The relaxation rate, 1/s, of the drag outside FastDrag; species are added one by one.
 class SlowDrag {
  public:
   /// \param voidage  eps  \param fluid_density  rho_f, kg/m3
@@ -46,22 +46,22 @@ class FastDrag {
  public:
   FastDrag(const Constants& constants, const fluid::Boundaries& boundaries, const StateLayout& layout);
 
-  /// Takes the coefficients phi_j, b_j and eps on faces from fields as a right-hand side has left them.
+  /// Takes the coefficients phi_j, b_j and eps on faces from the fields after a right-hand side.
   void hold(const Fields& fields);
-  /// Adds `factor` times the rates above, of a state y, to `rates`.
+  /// Adds `factor` times the rates above, for a state y, to `rates`.
   void add(double factor, std::span<const double> y, std::span<double> rates) const;
-  /// Solves x - gamma A x = r, where A x are the rates above and x holds r at first. \param gamma  s, >= 0
+  /// Solves x - gamma A x = r, where A x are the rates above and x contains r at first. \param gamma  s, >= 0
   void solve(double gamma, std::span<double> x) const;
 
  private:
-  /// On the faces of one axis, in the order of the state.
+  /// Data on the faces of one axis, in the order of the state.
   struct Faces {
-    std::size_t begin = 0, size = 0;                        ///< of the flux in the state, and faces
+    std::size_t begin = 0, size = 0;                        ///< begin of the flux in the state, and number of faces
     std::vector<std::size_t> velocity;                      ///< begin of U_j in the state
-    std::vector<std::vector<double>> phi, b;                ///< [species][face]; b is 0 where solids do not move
+    std::vector<std::vector<double>> phi, b;                ///< [species][face]; b is 0 on faces where solids are fixed
     std::vector<std::vector<double>> share;                 ///< k_j; empty without added mass
     std::vector<double> voidage, mobility;                  ///< eps, and B in m3/kg
-    std::vector<std::pair<std::size_t, std::size_t>> runs;  ///< faces where solids move, one after the other
+    std::vector<std::pair<std::size_t, std::size_t>> runs;  ///< ranges of adjacent faces where solids move
   };
 
   template <class Kernel>

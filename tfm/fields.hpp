@@ -1,4 +1,4 @@
-// Everything that one evaluation of the right-hand side computes: the working fields of the continuum model.
+// The working fields of the continuum model: all results of one evaluation of the right-hand side.
 #pragma once
 
 #include <array>
@@ -15,11 +15,11 @@
 
 namespace polybed::tfm {
 
-/// What does not change during a run, in the order of the species.
+/// Constants during a run, in the order of the species.
 struct Constants {
   core::Grid grid;
   double gravity = 9.81;                 ///< m/s2, along `down`
-  std::array<double, 3> down{0, -1, 0};  ///< unit vector on the axes; aslant in a column that leans
+  std::array<double, 3> down{0, -1, 0};  ///< unit vector on the axes; oblique in a tilted column
   relevance::FluidConstants fluid;
   std::vector<double> diameter;              ///< D_j, m
   std::vector<double> density;               ///< rho_j, kg/m3
@@ -32,19 +32,19 @@ struct Constants {
   [[nodiscard]] std::size_t species() const { return diameter.size(); }
 };
 
-/// Solids stress on cells; empty where no stress acts.
+/// Solids stress on cells; empty without stress.
 struct SolidsStress {
   core::Field pressure;  ///< p_s with its bulk-viscous part, Pa
   core::Field slope;     ///< dp_s/dphi, Pa
-  /// -dp_s/d(phi div U), Pa s: alpha rho_s c_s h of the bulk-viscous part, and what compression does to p_s by way of a
-  /// granular temperature that balances in each cell.
+  /// -dp_s/d(phi div U), Pa s: alpha rho_s c_s h from the bulk-viscous part, plus the effect of compression on p_s
+  /// through a granular temperature from a local balance.
   core::Field damping;
-  core::Field contact;  ///< p_f: the part of friction alone, Pa; empty if nothing asks for it
+  core::Field contact;  ///< p_f: the part of friction alone, Pa; empty if unused
   core::FaceField
-      upwind_work;  ///< jump of pressure across a face that takes the work of its flux, Pa; empty along axes without
-  core::Field viscosity;            ///< mu_s/phi, Pa s; empty where the solids have no shear viscosity
-  std::vector<core::Field> strain;  ///< 2 D':D' of each species, 1/s2; with the viscosity
-  core::Field wall;                 ///< friction of walls by collisions over phi, Pa s/m; empty if absent
+      upwind_work;  ///< jump of pressure across a face that takes the work of its flux, Pa; empty along unused axes
+  core::Field viscosity;            ///< mu_s/phi, Pa s; empty if the solids have no shear viscosity
+  std::vector<core::Field> strain;  ///< 2 D':D' for each species, 1/s2; with the viscosity
+  core::Field wall;                 ///< collisional wall friction over phi, Pa s/m; empty if absent
   [[nodiscard]] bool present() const { return !pressure.empty(); }
   [[nodiscard]] bool viscous() const { return !viscosity.empty(); }
   void make_viscous(const Constants& constants) {
@@ -53,24 +53,24 @@ struct SolidsStress {
   }
 };
 
-/// What the equation of the granular temperature needs, species by species; empty unless theta_j is an unknown.
+/// Input to the equation of the granular temperature, species by species; empty unless theta_j is an unknown.
 struct Granular {
   std::vector<core::Field> conductivity;  ///< k_j/phi_j, kg/(m s)
-  std::vector<core::Field> decay;         ///< rate at which a disturbance of theta_j in one cell decays, 1/s
+  std::vector<core::Field> decay;         ///< decay rate of a disturbance of theta_j in one cell, 1/s
 };
 
-/// Of forces on single particles; empty where none acts.
+/// Forces on individual particles; empty if there are none.
 struct ParticleForce {
-  std::vector<core::Field> on_solids;  ///< f_j: over the particles' volume, N/m3, [species][face] of the axis at hand
+  std::vector<core::Field> on_solids;  ///< f_j: over the particles' volume, N/m3, [species][face] of the present axis
   [[nodiscard]] bool present() const { return !on_solids.empty(); }
 };
 
-/// What added mass needs, on the faces where solids move; empty where it is absent.
+/// Added mass on the faces where solids move; empty if it is absent.
 struct Inertia {
-  std::vector<core::FaceField> convection;  ///< -(U.grad)U of each species and, last, of the fluid, m/s2
-  std::vector<core::FaceField> share;       ///< k_j = C_m rho_f/(rho_j + C_m rho_f): of the fluid's in a solid's motion
-  std::vector<core::FaceField> response;    ///< what a unit gradient of the pressure does to U_j, m3/kg
-  core::FaceField fluid_response;           ///< and to U_f, m3/kg
+  std::vector<core::FaceField> convection;  ///< -(U.grad)U for each species and, last, for the fluid, m/s2
+  std::vector<core::FaceField> share;       ///< k_j = C_m rho_f/(rho_j + C_m rho_f): share of the fluid's acceleration
+  std::vector<core::FaceField> response;    ///< change of U_j per unit gradient of the pressure, m3/kg
+  core::FaceField fluid_response;           ///< the same for U_f, m3/kg
   [[nodiscard]] bool present() const { return !share.empty(); }
 };
 
@@ -78,7 +78,7 @@ struct Fields {
   fluid::Interphase solids;
   fluid::FluidState fluid;
   core::Field solids_fraction;                ///< phi = sum phi_j
-  std::vector<core::Field> share;             ///< x_j as closures see it: [species][cell]
+  std::vector<core::Field> share;             ///< x_j as in closures: [species][cell]
   std::vector<core::Field> slip_superficial;  ///< eps |U_f - U_j| at cell centres, m/s: [species][cell];
                                               ///< times rho_f/rho_0 if the fluid is compressible
   core::FaceField fluid_acceleration;         ///< a_f, m/s2

@@ -17,7 +17,7 @@ void FirstOrderFallback::see(const StateLayout& layout, std::span<const double> 
     if (const CellSolids is = solids_of(constants_, layout, y, cell, stress);
         is.least < least_ || is.above_packing > overshoot)
       out.push_back(cell);
-  if (left_.empty()) {  // on one rank as on all
+  if (left_.empty()) {  // the same on all ranks
     if (core::sum_of_ranks(grid, double(out.size())) == 0) return;
     left_.assign(grid.cell_count(), 0.0);
   }

@@ -1,5 +1,4 @@
-// Where a fraction has fallen below zero or risen above packing, the fluxes of the solids are of first order for a
-// while.
+// Fallback to first-order fluxes of the solids for a while, after a fraction falls below zero or exceeds packing.
 #pragma once
 
 #include <array>
@@ -15,8 +14,8 @@ namespace polybed::tfm {
 /// Faces by axis, as indices into fields on faces.
 using FaceList = std::array<std::vector<core::Index>, 3>;
 
-/// Looks at every accepted state, never inside a step: a cell with phi_j < -10 atol_phi or phi > phi_max + 1e-3 has
-/// its faces flagged for the next 20 steps. What the flags do is up to continuity().
+/// Checks every accepted state, never inside a step: flags the faces of a cell with phi_j < -10 atol_phi or phi >
+/// phi_max + 1e-3 for the next 20 steps. continuity() uses the flags.
 class FirstOrderFallback {
  public:
   static constexpr int steps = 20;
@@ -26,17 +25,17 @@ class FirstOrderFallback {
   FirstOrderFallback(const Constants& constants, const fluid::Boundaries& boundaries, double atol_fraction)
       : constants_(constants), boundaries_(boundaries), least_(-10 * atol_fraction) {}
 
-  /// A step has been accepted: counts the flags down and sets new ones. The stress may be null. Collective.
+  /// Called after an accepted step: counts the flags down and sets new ones. The stress can be null. Collective.
   void see(const StateLayout& layout, std::span<const double> y, const StressEffect* stress);
 
   /// The faces of flagged cells on which solids move.
   [[nodiscard]] const FaceList& faces() const { return faces_; }
-  /// How often a cell of the column has been flagged that was not.
+  /// Number of times that an unflagged cell of the column was flagged.
   [[nodiscard]] std::uint64_t count() const { return count_; }
 
-  /// Steps left of every owned cell, in the order of a fraction in the state; empty if none of the column is flagged.
+  /// Remaining steps of every owned cell, in the order of a fraction in the state; empty without flags in the column.
   [[nodiscard]] const std::vector<double>& steps_left() const { return left_; }
-  /// Takes up flags and count of a checkpoint.
+  /// Restores flags and count from a checkpoint.
   void restore(const StateLayout& layout, std::vector<double> steps_left, std::uint64_t count);
 
  private:

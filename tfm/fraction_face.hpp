@@ -1,4 +1,4 @@
-// Value of a fraction at a face, from the side that the solids come from.
+// Upwind value of a fraction at a face.
 #pragma once
 
 #include <algorithm>
@@ -7,10 +7,10 @@
 
 namespace polybed::tfm {
 
-/// core::LimitedFace of a quantity that is not below 0, such as a fraction: the half slope is at most what the cell
-/// that the flow leaves has, and 0 if that is less than nothing. Where no value is below 0 the bound says nothing,
-/// since half a slope is at most (1 + sqrt 2)/4 of the smaller difference; where an integrator has left one, a face
-/// without it may take from a cell that has less than nothing, so that a deficit grows instead of decaying.
+/// core::LimitedFace for a non-negative quantity such as a fraction: the half slope is limited to the value of the
+/// upwind cell, and is 0 if that is negative. The limit has no effect on non-negative values, since half a slope is at
+/// most (1 + sqrt 2)/4 of the smaller difference. Without it a face could take more from a cell that an integrator has
+/// made negative, so that a deficit grows instead of decaying.
 struct LimitedFractionFace {
   static double at(const double* q, core::Index c, core::Index s, double u) {
     const double below = q[c - s] - q[c - 2 * s], here = q[c] - q[c - s], above = q[c + s] - q[c];

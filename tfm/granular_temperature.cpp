@@ -11,7 +11,7 @@ using core::Index;
 
 namespace {
 
-/// Adds -U.grad theta as -div(U theta) + theta div U with theta from upwind on faces.
+/// Adds -U.grad theta as -div(U theta) + theta div U with upwind theta on faces.
 template <class Face, class Metric>
 void convect(const Metric& metric, const core::Grid& grid, const core::Field& temperature,
              const core::FaceField& velocity, core::Field& rate) {

@@ -1,4 +1,4 @@
-// What the continuum model alone tells in history.csv.
+// Columns of history.csv from the continuum model alone.
 #pragma once
 
 #include <vector>
@@ -9,7 +9,7 @@
 
 namespace polybed::tfm {
 
-/// What its columns are read off, at one time.
+/// Source of its columns, at one time.
 struct Told {
   measures::InvariantValues invariants;
   double fluid_mass = 0;        ///< of a compressible fluid, kg
@@ -17,9 +17,9 @@ struct Told {
   std::vector<double> in, out;  ///< through open ends, kg, [species]
 };
 
-/// The columns behind those of the bed.
-/// \param compressible  the fluid is
-/// \param openings      an end is open to solids
+/// The columns after the bed's.
+/// \param compressible  whether the fluid is compressible
+/// \param openings      whether an end is open to solids
 [[nodiscard]] measures::Table<Told> history_table(bool compressible, bool openings);
 
 }  // namespace polybed::tfm

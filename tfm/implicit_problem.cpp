@@ -31,7 +31,7 @@ core::Rate ImplicitProblem::residual(double t, std::span<const double> y, std::s
   return core::Rate::ok;
 }
 
-/// Row (5): div J = 0, or kappa (dp/dt less its rate) = 0.
+/// Row (5): div J = 0, or kappa (dp/dt minus its rate) = 0.
 void ImplicitProblem::pack_continuity(const StateLayout::Entry& entry, std::span<const double> dydt,
                                       std::span<double> r) {
   const fluid::Compression& own = equations_.fields().fluid.compression;

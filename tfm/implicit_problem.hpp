@@ -1,5 +1,5 @@
-// The model as a differential-algebraic system: rates of all fields, and for the pressure div J = 0 (index 2) or, where
-// the fluid is compressible, (5) of fluid/compressible.hpp.
+// The model as a differential-algebraic system: rates of all fields, and for the pressure div J = 0 (index 2) or, for a
+// compressible fluid, (5) of fluid/compressible.hpp.
 #pragma once
 
 #include <cstdint>

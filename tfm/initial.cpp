@@ -19,7 +19,7 @@ double solids_height(const core::Bed& bed) { return bed.static_height * bed.soli
 
 namespace {
 
-/// \param top  of the bed at its start, m
+/// \param top  of the bed at the start, m
 void require_room(double top, const core::Grid& grid) {
   const double height = grid.spacing[1] * grid.column_cells(1);
   if (top > height * (1 + 1e-12))
@@ -35,7 +35,7 @@ std::vector<double> layers_of(const core::Grid& grid) {
   return layers;
 }
 
-/// Solids fraction of the cells of a column filled evenly from the bottom; the topmost cell takes the rest.
+/// Solids fraction of cells in a column that is filled evenly from the bottom; the topmost cell gets the remainder.
 std::vector<double> even_column(double solids, double fraction, const std::vector<double>& layers) {
   std::vector<double> column;
   for (const double layer : layers) {
@@ -45,7 +45,7 @@ std::vector<double> even_column(double solids, double fraction, const std::vecto
   return column;
 }
 
-/// The solids fraction whose pressure balances that of the cell above and the weight between the two centres.
+/// The solids fraction whose pressure balances the cell above and the weight between the two centres.
 double settled_fraction(const StressEffect& stress, double above, double weight_per_fraction, double pressure_above) {
   double phi = above;
   for (int n = 0; n < 200; ++n) {
@@ -56,7 +56,7 @@ double settled_fraction(const StressEffect& stress, double above, double weight_
   return phi;
 }
 
-/// Column of `cells` cells under a topmost one of fraction `top`, in equilibrium face by face, from the bottom up.
+/// Equilibrium of `cells` cells under a topmost one of fraction `top`, face by face, from the bottom up.
 std::vector<double> equilibrium_below(const StressEffect& stress, double top, int cells, double weight) {
   std::vector<double> column{top};
   double pressure = stress.pressure_on_top(top, 0.5 * top * weight);
@@ -69,8 +69,8 @@ std::vector<double> equilibrium_below(const StressEffect& stress, double top, in
   return column;
 }
 
-/// A bed at rest of a given volume of solids: the number of cells and the loose topmost one are chosen so
-/// that it comes out exactly.
+/// A bed at rest with a given volume of solids: the number of cells and the loose topmost one are chosen to match the
+/// volume exactly.
 std::vector<double> settled_column(double solids, const StressEffect& stress, double weight, const core::Grid& grid) {
   const std::vector<double> layers = layers_of(grid);
   const auto amount = [&](const std::vector<double>& c) {
@@ -89,11 +89,11 @@ std::vector<double> settled_column(double solids, const StressEffect& stress, do
   return column;
 }
 
-/// Changes a layer of the block's cells by a share, at random from cell to cell, of the mean 0 over the layer of the
-/// column; the same on any number of ranks.
+/// Changes a layer of the block's cells by a random share per cell, with mean 0 over the layer of the column; the same
+/// on any number of ranks.
 void perturb_layer(const core::Grid& grid, int y, double share, std::uint64_t seed, fluid::Interphase& solids) {
   if (y < grid.before[1] || y >= grid.before[1] + grid.cells[1]) return;
-  constexpr std::uint64_t fractions_at_start = 101;  // a sequence of its own
+  constexpr std::uint64_t fractions_at_start = 101;  // its own sequence
   const int nx = grid.column_cells(0), nz = grid.column_cells(2);
   const auto random = [&](int x, int z) {
     return 2 * core::uniform(
@@ -114,7 +114,7 @@ void perturb_layer(const core::Grid& grid, int y, double share, std::uint64_t se
     }
 }
 
-/// Share of each of the block's cells along an axis that lies between two places, both in cells of the column.
+/// Share of each of the block's cells along an axis between two places, both in cells of the column.
 std::vector<double> shares_between(const core::Grid& grid, std::size_t axis, double from, double to) {
   std::vector<double> share;
   for (int n = 0; n < grid.cells[axis]; ++n) {
@@ -124,7 +124,7 @@ std::vector<double> shares_between(const core::Grid& grid, std::size_t axis, dou
   return share;
 }
 
-/// Share of each of the block's layers, by volume, that lies between two heights.
+/// Share of each of the block's layers, by volume, between two heights.
 std::vector<double> shares_of_layers(const core::Grid& grid, const core::Column& column, const core::Extent& extent) {
   const double h = grid.spacing[1];
   if (!column.is_tapered()) return shares_between(grid, 1, extent.low / h, extent.high / h);
@@ -136,7 +136,7 @@ std::vector<double> shares_of_layers(const core::Grid& grid, const core::Column&
   return share;
 }
 
-/// Adds a part of the bed to the cells. Those that its faces cut get their share by volume, so that the mass is exact.
+/// Adds a part of the bed to the cells. Cells cut by its faces get their share by volume, so that the mass is exact.
 void add_bed_part(const core::Grid& grid, const core::Column& column, const core::BedPart& part,
                   const core::Extent& extent, fluid::Interphase& solids) {
   const double height = column.even_height(extent.high) - column.even_height(extent.low);
@@ -155,7 +155,7 @@ void add_bed_part(const core::Grid& grid, const core::Column& column, const core
       }
 }
 
-/// A bed of several parts, each of an even composition.
+/// A bed with several parts, each of uniform composition.
 void fill_parts(const core::Scene& scene, const core::Grid& grid, fluid::Interphase& solids) {
   const std::vector<core::BedPart> parts = core::start_parts(scene);
   const std::vector<core::Extent> extents = core::stacked(parts, scene.column);
@@ -165,7 +165,7 @@ void fill_parts(const core::Scene& scene, const core::Grid& grid, fluid::Interph
     if (parts[n].all_solids() > 0) add_bed_part(grid, scene.column, parts[n], extents[n], solids);
 }
 
-/// One layer of the block's cells; nothing if the block has none of it.
+/// Fills one layer of the block's cells; does nothing if the block lacks it.
 void fill_layer(const core::Grid& grid, int y, double value, core::Field& field) {
   if (y < 0 || y >= grid.cells[1]) return;
   core::for_each_row(grid, core::Box{{0, y, 0}, {grid.cells[0], y + 1, grid.cells[2]}},

@@ -1,4 +1,4 @@
-// Which integrator a scene is run with, and why: as the case says, or the one that is expected to be cheapest.
+// The integrator for a scene, with the reason: from the case, or the one with the least expected cost.
 #pragma once
 
 #include <string>
@@ -9,13 +9,13 @@
 namespace polybed::tfm {
 
 struct IntegratorChoice {
-  core::TfmIntegrator kind{};  ///< not automatic
+  core::TfmIntegrator kind{};  ///< never automatic
   std::string reason;
 };
 
-/// The rule rests on measured costs, docs/record/cost.md: a liquid bed is cheaper with steps that take the drag alone
-/// implicitly, unless a wholly implicit one replaces more than 1.5 of them, because the solids' pressure binds them;
-/// one that settles or is fluidised by a gas is cheaper with wholly implicit ones. Throws core::StartError where the
+/// The rule uses measured costs, docs/record/cost.md. A liquid bed is cheaper with steps that take only the drag
+/// implicitly, unless one fully implicit step replaces more than 1.5 of them because the solids' pressure limits them.
+/// A bed that settles or is fluidised by a gas is cheaper with fully implicit steps. Throws core::StartError if the
 /// integrator cannot run the scene.
 /// \param greatest_inflow  superficial velocity of the inlet, m/s
 [[nodiscard]] IntegratorChoice choose_integrator(const core::Scene& scene, const Constants& constants,

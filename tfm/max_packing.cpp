@@ -11,7 +11,7 @@ namespace polybed::tfm {
 
 namespace {
 
-/// For "auto".
+/// The packing for "auto".
 double packing_that_carries(const core::Scene& scene, double fluid_density) {
   double excess = 0;
   for (std::size_t j = 0; j < scene.species.size(); ++j)

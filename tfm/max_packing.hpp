@@ -1,4 +1,4 @@
-// The maximum packing of the whole bed, as a case gives it.
+// The maximum packing of the whole bed, from the case.
 #pragma once
 
 #include <span>
@@ -9,17 +9,17 @@
 
 namespace polybed::tfm {
 
-/// Volume of the settled solids per area, m; of a column that begins without solids, as if it were full of them.
+/// Volume of the settled solids per area, m; for a column that starts without solids, as if it were full of them.
 [[nodiscard]] double settled_height(const core::Scene& scene);
 
-/// The mixture rule of tfm.max_packing; null for a number and for "auto".
+/// The mixture rule in tfm.max_packing; null for a number and for "auto".
 [[nodiscard]] closures::MixturePacking mixture_rule(const core::Scene& scene);
 
 /// phi_max of each species alone.
 [[nodiscard]] std::vector<double> species_packings(const core::Scene& scene);
 
-/// phi_max of shares of the species: tfm.max_packing as a number, or by its mixture rule; for "auto" the packing at
-/// which the settled bed has bed.solids_fraction where it carries half its own weight, 1 or more if it is too light.
+/// phi_max for shares of the species: tfm.max_packing as a number, or from its mixture rule. For "auto" it gives the
+/// settled bed bed.solids_fraction under half its own weight; 1 or more if the bed is too light.
 /// \param fluid_density  kg/m3
 [[nodiscard]] double max_packing_of(const core::Scene& scene, std::span<const double> share, double fluid_density);
 

@@ -1,4 +1,4 @@
-// What a model holds in memory.
+// Memory use of a model.
 #include "tfm/fields.hpp"
 
 namespace polybed::tfm {

@@ -43,7 +43,7 @@ Constants make_constants(const core::Scene& scene, const std::shared_ptr<const c
   return constants;
 }
 
-/// By itself of first order.
+/// Automatic momentum convection is first order.
 core::Momentum momentum_of(const core::Scene& scene) {
   return scene.scheme.momentum == core::Momentum::automatic ? core::Momentum::conservative : scene.scheme.momentum;
 }
@@ -71,8 +71,8 @@ Model::Model(const core::Scene& scene, core::Timers& timers, const std::shared_p
               constants().openings.passages()),
       pressure_scale_(scene.fluid.outlet_pressure * (100.0 / 101325)) {
   column_size_ = layout_of_column().size();
-  constexpr double least_scale = 1e-6;  // m/s, where nothing falls and nothing flows in: a tolerance of 0 is none
-  // No solids fall faster than freely through all of the column: a terminal velocity beyond that is not met.
+  constexpr double least_scale = 1e-6;  // m/s, without fall and inflow: a tolerance cannot be 0
+  // No solids fall faster than in free fall through the whole column, which limits the terminal velocity.
   const double terminal =
       std::min(greatest_terminal_velocity(constants()), std::sqrt(2 * constants().gravity * scene.column.size[1]));
   velocity_scale_ = std::max({0.1 * terminal, inlet().greatest(), constants().openings.greatest(), least_scale});
@@ -88,19 +88,19 @@ Model::Model(const core::Scene& scene, core::Timers& timers, const std::shared_p
 
 Model::~Model() = default;
 
-/// The bed at rest, in the flow that the inlet drives.
+/// The bed at rest, in the flow from the inlet.
 void Model::fill_state(const core::Scene& scene) {
   const core::Grid& grid = constants().grid;
   Fields& fields = equations_.fields();
   fill_bed(scene, constants(), effects().solids_stress.get(), fields.solids);
   constants().openings.set_velocities(time_, fields.solids);
-  // In a column whose diameter changes the flow finds its way as after a jump, round solids at rest.
+  // In a column with changing diameter the flow adjusts around solids at rest, as after a jump.
   const bool tapered = grid.metric && grid.metric->tapered();
   const double inflow = tapered ? 0 : inlet().mean_velocity(0);
   core::for_each_row(grid, core::owned_faces(grid, 1), [&](Index begin, Index end) {
     std::fill(fields.fluid.flux[1].begin() + begin, fields.fluid.flux[1].begin() + end, inflow);
   });
-  core::FaceField even = core::make_face_field(grid);  // what flows in before jets and sides have their own velocities
+  core::FaceField even = core::make_face_field(grid);  // inflow before jets and sides have their own velocities
   for (const int side : {0, 1}) {
     if (side == 1 && boundaries().has_outlet()) continue;
     fluid::for_each_boundary_row(grid, 1, side, [&](Index begin, Index end) {
@@ -168,7 +168,7 @@ void Model::step(double stop) {
   last_step_.limited_by = report.time >= stop && report.step < 0.99 * report.next_step ? "event" : what_limited(report);
 }
 
-/// Where a part refuses the step, the state is the one before it.
+/// If a part rejects the step, the state is the one before it.
 void Model::accept(const core::StepReport& report) {
   time_ = report.time;
   step_ = report.next_step;
@@ -182,7 +182,7 @@ void Model::accept(const core::StepReport& report) {
   }
 }
 
-/// In the words of the rank where the limit is.
+/// The text of the rank that has the limit.
 std::string Model::what_limited(const core::StepReport& report) const {
   const core::Grid& grid = constants().grid;
   const TimeScale nearest = nearest_of(stepping_->time_scales());

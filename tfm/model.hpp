@@ -1,4 +1,4 @@
-// The continuum model as something that can be run: it owns the state, the equations and the integrator.
+// The continuum model, ready to run: it owns the state, the equations and the integrator.
 #pragma once
 
 #include <memory>
@@ -31,9 +31,9 @@ struct StepLine {
 
 class Model : public core::Simulation {
  public:
-  /// Everything the scene calls for, at rest at its start; throws core::CaseError for what cannot be built.
-  /// \param ranks  that share the column, each with a model of its block; null: the column is all here. Then this and
-  /// all that steps, shows, restarts, keeps or resumes is collective.
+  /// Creates everything that the scene needs, at rest; throws core::CaseError for parts that cannot be created.
+  /// \param ranks  that share the column, each with a model of its block; null: the column is all here. With ranks this
+  /// and all functions that step, show, restart, keep or resume are collective.
   Model(const core::Scene& scene, core::Timers& timers, const std::shared_ptr<const core::Ranks>& ranks = nullptr);
   ~Model() override;
 
@@ -42,52 +42,51 @@ class Model : public core::Simulation {
   void show(double t) override;
   void restart() override;
 
-  /// The state of this rank's block, to the bit; valid right after restart(). What a file of it holds does not depend
-  /// on how many ranks share the column.
+  /// The state of this rank's block, to the bit; valid right after restart(). A file with it does not depend on the
+  /// number of ranks.
   [[nodiscard]] core::Checkpoint checkpoint() const;
-  /// How the arrays of a checkpoint that ranks share lie in those of the column.
+  /// How the ranks' arrays in a checkpoint lie in the arrays of the column.
   [[nodiscard]] core::CheckpointParts checkpoint_parts() const;
-  /// Keeps the state last accepted as the one that checkpoint() returns, after a step has failed.
+  /// Makes checkpoint() return the state last accepted, after a failed step.
   void keep_last_state();
-  /// Whether steps that leave solids far above their packing are taken; without being told so a model throws
-  /// core::ConservationError.
+  /// Accept steps beyond maximum packing; otherwise, and by default, the model throws core::ConservationError.
   void go_on_above_packing(bool go_on);
-  /// Begins at time 0 from the state of a checkpoint of the same species and grid.
+  /// Starts at time 0 from the state in a checkpoint with the same species and grid.
   void start_from(const core::Checkpoint& checkpoint);
-  /// Takes a run up again from a checkpoint written by any number of ranks: each rank's own parts, the rest of the
-  /// first; throws core::FileError if it is of another scene.
+  /// Resumes a run from a checkpoint written by any number of ranks: each rank's own parts, the rest from the first.
+  /// Throws core::FileError if it is for another scene.
   void resume(const core::Checkpoint& checkpoint);
 
   [[nodiscard]] const Constants& constants() const { return equations_.constants(); }
   [[nodiscard]] const Effects& effects() const { return equations_.effects(); }
-  /// Fields at the time last shown (or stepped to).
+  /// Fields at the time last shown (or reached by a step).
   [[nodiscard]] const Fields& fields() const { return equations_.fields(); }
   [[nodiscard]] const fluid::Boundaries& boundaries() const { return equations_.boundaries(); }
   [[nodiscard]] const fluid::Inlet& inlet() const { return equations_.inlet(); }
-  /// Times at which what flows in changes its rate or jumps: a run must stop there.
+  /// Times at which the inflow changes its rate or jumps: a run must stop there.
   [[nodiscard]] std::vector<double> breakpoints() const;
-  /// Volume of each species that has come in and gone out since the start, m3, of the fields last shown.
+  /// Volume of each species that has entered and left since the start, m3, for the fields last shown.
   [[nodiscard]] std::vector<fluid::Passed> passed() const { return constants().openings.passed(fields().solids); }
   /// Explicit or implicit steps.
   [[nodiscard]] core::TfmIntegrator integrator_kind() const { return integrator_.kind; }
   [[nodiscard]] const std::string& integrator_reason() const { return integrator_.reason; }
-  /// Convection of momentum; not automatic.
+  /// Convection of momentum; never automatic.
   [[nodiscard]] core::Momentum momentum() const { return momentum_; }
   [[nodiscard]] const StepLine& last_step() const { return last_step_; }
   [[nodiscard]] Work work() const;
-  /// Of the whole column.
+  /// Number in the whole column.
   [[nodiscard]] std::size_t unknowns() const { return column_size_; }
   /// The same unknowns on another grid.
   [[nodiscard]] StateLayout layout_on(const core::Grid& grid) const;
-  /// Of a compressible fluid: what has flowed in and out by a time within the last step; nothing else.
+  /// Flow of a compressible fluid in and out up to a time within the last step; nothing for other fluids.
   [[nodiscard]] std::optional<fluid::MassAccount> fluid_account(double t) const;
   /// Memory of the state and of the integrator's vectors, bytes.
   [[nodiscard]] std::size_t state_bytes() const {
     return integrator().workspace() + (y_.size() + dydt_.size()) * sizeof(double);
   }
-  /// Velocity that errors and divergences are measured against, m/s.
+  /// Velocity scale for errors and divergences, m/s.
   [[nodiscard]] double velocity_scale() const { return velocity_scale_; }
-  /// Pressure, Pa, that rtol is of in Newton's iterations: 1/1013.25 of the outlet's, 100 Pa under an atmosphere.
+  /// Pressure, Pa, as the base of rtol in Newton's iterations: 1/1013.25 of the outlet's, 100 Pa for an atmosphere.
   [[nodiscard]] double pressure_scale() const { return pressure_scale_; }
 
  private:
@@ -104,7 +103,7 @@ class Model : public core::Simulation {
   [[nodiscard]] StateLayout layout_of_column() const { return layout_on(core::whole_column(constants().grid)); }
   [[nodiscard]] core::Integrator& integrator() const { return stepping_->integrator(); }
   [[nodiscard]] bool compressible() const { return effects().compressible != nullptr; }
-  /// Whether theta_j is an unknown; where a local balance gives it, it is none.
+  /// Whether theta_j is an unknown, instead of the result of a local balance.
   [[nodiscard]] bool transports_temperature() const { return !fields().solids.temperature_rate.empty(); }
 
   core::Timers& timers_;
@@ -116,12 +115,12 @@ class Model : public core::Simulation {
   double time_ = 0, step_ = 0, velocity_scale_ = 1, pressure_scale_ = 100;
   std::vector<double> y_, dydt_;
   std::size_t column_size_ = 0;                      ///< entries of the whole column's state
-  std::vector<std::unique_ptr<StepPart>> parts_;     ///< those that the scene has, in the order in which they act
-  CompressibleFluid* compressible_fluid_ = nullptr;  ///< one of the parts, if it is there, as is the next
+  std::vector<std::unique_ptr<StepPart>> parts_;     ///< those needed by the scene, in the order in which they act
+  CompressibleFluid* compressible_fluid_ = nullptr;  ///< one of the parts, or null; likewise the next
   PackingCheck* packing_check_ = nullptr;
   std::unique_ptr<Stepping> stepping_;
   StepLine last_step_;
-  Work before_;  ///< of the integrators that a restart has closed
+  Work before_;  ///< by integrators that a restart has closed
 };
 
 }  // namespace polybed::tfm

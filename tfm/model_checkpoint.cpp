@@ -1,4 +1,4 @@
-// The model's state in a checkpoint: each rank has its block of the column, whoever reads it next.
+// The model's state in a checkpoint: each rank writes its block of the column, for any number of readers.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -17,7 +17,7 @@ namespace polybed::tfm {
 
 namespace {
 
-/// What an integrator that is closed leaves behind; cells of first order are counted by the fallback, which goes on.
+/// Counts of a closed integrator; first-order cells are counted by the fallback, which continues.
 constexpr std::array<std::pair<const char*, std::uint64_t Work::*>, 7> counts{
     {{"steps", &Work::steps},
      {"rejected_steps", &Work::rejected_steps},
@@ -36,7 +36,7 @@ StateLayout Model::layout_on(const core::Grid& grid) const {
 
 namespace {
 
-/// Where a block's entry of the state lies in the column's.
+/// Place of a block's entry of the state in the column's.
 core::Slab slab_of(const core::Grid& grid, const StateLayout::Entry& entry, const StateLayout::Entry& column) {
   core::Slab slab;
   for (std::size_t axis = std::size_t(grid.dimensions); axis-- > 0;) {
@@ -48,10 +48,10 @@ core::Slab slab_of(const core::Grid& grid, const StateLayout::Entry& entry, cons
   return slab;
 }
 
-/// What an unknown can be: far beyond what a step leaves, and far below what makes the next one fail.
+/// Range of an unknown: far beyond the result of any step, and far below values that make the next one fail.
 std::pair<double, double> range_of(StateLayout::Entry::Kind kind) {
   using Kind = StateLayout::Entry::Kind;
-  constexpr double undershoot = 0.1, fastest = 1e5, highest = 1e13;  // of a fraction; m/s; Pa
+  constexpr double undershoot = 0.1, fastest = 1e5, highest = 1e13;  // for a fraction; m/s; Pa
   if (kind == Kind::fraction) return {-undershoot, 1 + undershoot};
   if (kind == Kind::temperature) return {-undershoot, fastest * fastest};
   if (kind == Kind::pressure) return {-highest, highest};
@@ -69,7 +69,7 @@ core::CheckpointParts Model::checkpoint_parts() const {
     parts["state"].push_back(
         {layout_.name_of(entry, constants().name), slab_of(constants().grid, entry, column.entries()[n])});
   }
-  const core::Slab cells = parts["state"].front().slab;  // a fraction comes first
+  const core::Slab cells = parts["state"].front().slab;  // fractions come first
   parts["pressure"] = {{"cells", cells}};
   parts["first_order_steps_left"] = {{"cells", cells}};
   return parts;
@@ -80,7 +80,7 @@ core::Checkpoint Model::checkpoint() const {
   c.arrays["state"] = y_;
   c.arrays["pressure"].resize(constants().grid.cell_count());
   layout_.pack(layout_.entries().front(), fields().fluid.pressure, c.arrays["pressure"]);
-  // A guess for the next solve, left by one that may have failed.
+  // A guess for the next solve; the last one may have failed.
   for (double& p : c.arrays["pressure"])
     if (!std::isfinite(p)) p = 0;
   for (const auto& part : parts_) part->write(c, time_);
@@ -101,7 +101,7 @@ void Model::keep_last_state() {
 
 namespace {
 
-/// What a state of another column has where the wall of a round one closes cells and faces.
+/// Clears cells and faces that a round wall closes, as the state can come from another column.
 void clear_closed(const core::Grid& grid, const StateLayout& layout, std::span<double> y) {
   using Kind = StateLayout::Entry::Kind;
   if (!grid.metric) return;
@@ -117,7 +117,7 @@ void clear_closed(const core::Grid& grid, const StateLayout& layout, std::span<d
   }
 }
 
-/// The flux of a state through the ends and sides where that is given; 0 elsewhere.
+/// The flux of a state through the ends and sides where it is given; 0 elsewhere.
 core::FaceField flux_at_ends(const core::Grid& grid, const fluid::Boundaries& boundaries, const StateLayout& layout,
                              std::span<const double> y) {
   core::FaceField flux = core::make_face_field(grid), at_ends = flux;
@@ -140,7 +140,7 @@ core::FaceField flux_at_ends(const core::Grid& grid, const fluid::Boundaries& bo
 void Model::start_from(const core::Checkpoint& checkpoint) {
   resume(checkpoint);
   clear_closed(constants().grid, layout_, y_);
-  if (!effects().compressible)  // what flows in now may be another than it was; a compressible fluid follows by sound
+  if (!effects().compressible)  // the inflow can differ now; a compressible fluid responds by sound
     project_jump(equations_, layout_, velocity_scale_, 0, flux_at_ends(constants().grid, boundaries(), layout_, y_),
                  y_);
   time_ = step_ = 0;
@@ -155,7 +155,7 @@ void Model::start_from(const core::Checkpoint& checkpoint) {
 void Model::check_fits(const core::Checkpoint& checkpoint) const {
   const auto state = checkpoint.arrays.find("state"), pressure = checkpoint.arrays.find("pressure");
   const auto kind = checkpoint.texts.find("integrator");
-  const bool first = core::is_first(constants().grid.ranks.get());  // texts are the first rank's
+  const bool first = core::is_first(constants().grid.ranks.get());  // texts are on the first rank
   if (state == checkpoint.arrays.end() || state->second.size() != y_.size() || pressure == checkpoint.arrays.end() ||
       pressure->second.size() != constants().grid.cell_count() ||
       (first && (kind == checkpoint.texts.end() || kind->second != core::name_of(integrator_.kind))))
@@ -185,7 +185,7 @@ void Model::resume(const core::Checkpoint& checkpoint) {
   begin_integration();
 }
 
-/// Counts go on where they were; they are exact in a double up to 9e15.
+/// Continues the counts; they are exact in a double up to 9e15.
 void Model::restore_counts(const core::Checkpoint& checkpoint) {
   const core::Ranks* ranks = constants().grid.ranks.get();
   std::array<double, counts.size()> values{};

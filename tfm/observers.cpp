@@ -18,7 +18,7 @@ namespace polybed::tfm {
 
 namespace {
 
-constexpr std::size_t last_steps_kept = 10;  // that a run that fails tells
+constexpr std::size_t last_steps_kept = 10;  // reported by a failed run
 
 std::vector<double> slab_centres(const core::Grid& grid) {
   std::vector<double> y;
@@ -26,7 +26,7 @@ std::vector<double> slab_centres(const core::Grid& grid) {
   return y;
 }
 
-/// Of the layers of a tapered column, m2; empty: they are alike.
+/// Areas of the layers in a tapered column, m2; empty if all are equal.
 std::vector<double> areas_of_layers(const core::Grid& grid) {
   std::vector<double> areas;
   if (grid.metric && grid.metric->tapered())
@@ -35,7 +35,7 @@ std::vector<double> areas_of_layers(const core::Grid& grid) {
   return areas;
 }
 
-/// Whether there are granular temperatures to write: unknowns, or found by a local balance.
+/// Whether there are granular temperatures to write, as unknowns or from a local balance.
 bool knows_temperature(const Model& model) { return !model.fields().solids.temperature.empty(); }
 
 std::vector<std::string> profile_names(const Constants& constants, bool temperature) {
@@ -100,7 +100,7 @@ std::vector<double> masses(const Model& model) {
 
 namespace {
 
-/// What the block adds to the profile of the fields last shown.
+/// The block's contribution to the profile of the fields last shown.
 measures::Profile part_of_profile(const Model& model) {
   const core::Grid& grid = model.constants().grid;
   measures::Profile profile;
@@ -178,7 +178,7 @@ void Observers::write_history(double time) {
   for (std::size_t j = 0; j < constants.species(); ++j) {
     bed.mass.push_back(watched.volume[j] * constants.density[j]);
     const std::vector<double>& phi = bed.profile.fraction[j];
-    // A sloping wall bears what the solids above it weigh, or presses from above.
+    // A sloping wall supports part of the weight of the solids, or presses from above.
     const double carried = bed.profile.areas.empty() ? bed.mass[j]
                                                      : std::accumulate(phi.begin(), phi.end(), 0.0) * bed.profile.slab *
                                                            constants.density[j] * area;
@@ -223,7 +223,7 @@ void Observers::write_fields(double time) {
   core::Reduction all;
   const auto add_mean = [&](const core::Field& field) {
     rows.push_back(measures::part_of_lateral_mean(grid, field));
-    all.sum(rows.back());  // its numbers stay where they are when others come
+    all.sum(rows.back());  // its numbers keep their addresses when others are added
   };
   add_mean(fields.fluid.voidage);
   add_mean(fields.fluid.pressure);

@@ -1,4 +1,4 @@
-// What a run of the continuum model writes while it goes: history, profiles, fields, the step log, its invariants.
+// Output of a continuum run while it runs: history, profiles, fields, the step log, its invariants.
 #pragma once
 
 #include <deque>
@@ -15,7 +15,7 @@
 
 namespace polybed::tfm {
 
-/// The smallest margin to ill-posedness that a run has had in a row of its history, and the share of cells in the last.
+/// The smallest margin to ill-posedness in the rows of a run's history, and the share of cells below 1 in the last.
 struct LeastWellPosed {
   WellPosedness cell;
   double time = 0, share_below_now = 0;
@@ -24,8 +24,8 @@ struct LeastWellPosed {
 /// All ranks measure, the first one writes: every function is collective.
 class Observers {
  public:
-  /// Starts the files of a run directory, or goes on with them from a time.
-  /// \param initial_mass  of each species, kg, that mass is checked against
+  /// Starts the files in a run directory, or continues them from a time.
+  /// \param initial_mass  of each species, kg, as the reference for mass
   Observers(const Model& model, const std::filesystem::path& directory, double rtol, std::vector<double> initial_mass,
             std::optional<double> resume_time);
 
@@ -35,13 +35,13 @@ class Observers {
   void write_fields(double time);
   /// Makes the rows of history.csv survive a power cut.
   void flush();
-  /// What a run that goes on cannot measure again, for its checkpoint, and the same taken up.
+  /// Data that a continued run cannot measure again, for its checkpoint, and their restoration.
   [[nodiscard]] core::Json past() const;
   void recall(const core::Json& past);
-  /// One row of steps.csv, handed to the operating system at once and whole.
+  /// One row of steps.csv, passed to the operating system at once and complete.
   void log_step();
 
-  /// The steps logged last, the newest at the end: ten, or as many as this process has done.
+  /// The last logged steps, the newest at the end: ten, or as many as this process has made.
   [[nodiscard]] const std::deque<StepLine>& last_steps() const { return last_steps_; }
   [[nodiscard]] const measures::Invariants& invariants() const { return invariants_; }
   /// Bed height of the last row of the history, m.
@@ -51,16 +51,16 @@ class Observers {
   [[nodiscard]] const LeastWellPosed& least_well_posed() const { return least_well_posed_; }
 
  private:
-  /// What the first rank has open.
+  /// Files that the first rank has open.
   struct Files {
     core::HistoryWriter history;
     core::ProfileWriter profiles;
     core::LineFile steps;
   };
 
-  /// What does not go into a row: how well-posed the equations are.
+  /// Monitors well-posedness, which is not part of a row.
   void watch(double time, const WellPosedness& now);
-  /// The invariants, and what else the model alone knows.
+  /// The invariants and the model's own values.
   Told told(const measures::Watched& column, double time);
 
   const Model& model_;
@@ -75,10 +75,9 @@ class Observers {
   std::deque<StepLine> last_steps_;
 };
 
-/// theta_j as files show it, m2/s2: 0 where the species is absent (phi_j below 1e-6), whose equation there is that of
-/// nothing and whose value means nothing.
+/// theta_j for files, m2/s2: 0 where the species is absent (phi_j below 1e-6) and its value has no meaning.
 [[nodiscard]] core::Field shown_temperature(const core::Field& fraction, const core::Field& temperature);
-/// Mean of the shown theta_j over the solids of each layer of the column, m2/s2; 0 where there are none. Collective.
+/// Mean of the shown theta_j over the solids in each layer of the column, m2/s2; 0 without solids. Collective.
 [[nodiscard]] std::vector<double> mean_temperature(const core::Grid& grid, const core::Field& fraction,
                                                    const core::Field& shown);
 

@@ -14,7 +14,7 @@ namespace polybed::tfm {
 
 namespace {
 
-/// phi less the greatest that a composition can have.
+/// phi minus the greatest value for a composition.
 double above_greatest(const Constants& constants, double phi, std::span<const double> share,
                       const StressEffect* stress) {
   if (stress != nullptr) return phi - stress->packing_of(share);
@@ -30,7 +30,7 @@ CellSolids solids_of(const Constants& constants, const StateLayout& layout, std:
                      const StressEffect* stress) {
   std::array<double, most_species> share{};
   const std::size_t n = constants.species();
-  // The fractions stand first in a state, species by species.
+  // The fractions come first in a state, species by species.
   const auto fraction = [&](std::size_t j) { return y[layout.entries()[j].begin + cell]; };
   double least = 0, sum = 0, seen = composition_floor;
   for (std::size_t j = 0; j < n; ++j) {

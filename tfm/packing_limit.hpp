@@ -1,4 +1,4 @@
-// How far solids lie above the packing that they can have, whether a stress limits it or none.
+// Excess of solids over their maximum packing, with or without a stress that limits it.
 #pragma once
 
 #include <cstddef>
@@ -11,24 +11,24 @@ namespace polybed::tfm {
 
 constexpr std::size_t most_species = 15;  ///< as the case file allows
 
-/// What an owned cell holds.
+/// Solids in an owned cell.
 struct CellSolids {
-  double least;          ///< the smallest of its fractions
-  double above_packing;  ///< phi less the greatest that its composition can have
+  double least;          ///< smallest fraction of a species
+  double above_packing;  ///< phi minus the greatest value for its composition
 };
 
-/// From a state. The greatest fraction is what the stress allows; without one, that of spheres of these sizes each in
-/// a crystal, mixed after Yu and Standish. \param cell  in the order of a fraction in the state  \param stress  may be null
+/// From a state. The stress sets the greatest fraction; without one it is for spheres of these sizes each in a crystal,
+/// mixed after Yu and Standish. \param cell  in the order of a fraction in the state  \param stress  can be null
 [[nodiscard]] CellSolids solids_of(const Constants& constants, const StateLayout& layout, std::span<const double> y,
                                    std::size_t cell, const StressEffect* stress);
 
-/// Above this no bed is shown any more: ten times what a stress that yields may leave (invariant V2).
+/// The limit of a real bed: ten times the excess that a yielding stress can leave (invariant V2).
 constexpr double most_above_packing = 0.01;
 
-/// How far phi lies above the greatest that it can have, in the worst cell of the block; 0 if nowhere.
+/// Greatest excess of phi over its maximum in a cell of the block; 0 if there is none.
 [[nodiscard]] double packing_above(const Constants& constants, const Fields& fields, const StressEffect* stress);
 
-/// Throws core::ConservationError that names time, cell and remedy if solids lie further above the packing than
+/// Throws core::ConservationError with time, cell and remedy if solids exceed the packing by more than
 /// most_above_packing. Collective.
 void require_packing(const Constants& constants, const StateLayout& layout, std::span<const double> y, double t,
                      const StressEffect* stress);

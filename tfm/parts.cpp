@@ -23,7 +23,7 @@ namespace {
 
 using core::Index;
 
-/// Shifts the pressure of a closed column, which is known but for a constant, to 0 in the mean of its top layer.
+/// Shifts the pressure of a closed column, which is defined up to a constant, to 0 in the mean over its top layer.
 void start_from_the_top(const core::Grid& grid, core::Field& pressure) {
   core::Box top = core::owned_cells(grid);
   top.lo[1] = grid.ends(1, 1) ? top.hi[1] - 1 : top.hi[1];
@@ -37,7 +37,7 @@ void start_from_the_top(const core::Grid& grid, core::Field& pressure) {
   for (double& p : pressure) p -= mean;
 }
 
-/// The inlet's velocity on the faces where it is given, of a field that is 0 elsewhere.
+/// The inlet's velocity on the faces where it is given, as a field that is 0 elsewhere.
 core::FaceField inlet_velocity(const RightHandSide& equations, double t) {
   core::FaceField flux = core::make_face_field(equations.constants().grid);
   equations.inlet().set_velocity(t, flux);
@@ -47,7 +47,7 @@ core::FaceField inlet_velocity(const RightHandSide& equations, double t) {
 }  // namespace
 
 void FollowBed::prepare(std::span<const double> y) {
-  constexpr double trace = 1e-12;  // of the fraction: it stays where it is
+  constexpr double trace = 1e-12;  // of the fraction: such traces stay where they are
   constexpr int margin = 8;
   const core::Grid& grid = equations_.constants().grid;
   const auto holds_solids = [&](int row) {
@@ -66,8 +66,7 @@ void FollowBed::prepare(std::span<const double> y) {
   equations_.hold_solids_above(held < grid.column_cells(1) ? held : std::numeric_limits<int>::max());
 }
 
-/// It begins with the pressure that an incompressible fluid would have, so that sound is heard only where something
-/// happens.
+/// Starts with the pressure of an incompressible fluid, so that sound occurs only where something happens.
 void CompressibleFluid::start(double time, std::span<double> y) {
   equations_.begin(time);
   std::vector<double> rates(y.size());
@@ -80,7 +79,7 @@ void CompressibleFluid::start(double time, std::span<double> y) {
   begin_from_other(time, y);
 }
 
-/// Nothing has flowed yet, and what is there is there.
+/// Starts the account: no flow yet, and the present mass.
 void CompressibleFluid::begin_from_other(double time, std::span<const double> y) {
   if (!equations_.evaluate(time, layout_, y)) refuse_compressible_start();
   ledger_.begin(time, {fluid::fluid_mass(equations_.constants().grid, equations_.fields().fluid), 0, 0}, {});
@@ -108,7 +107,7 @@ void CompressibleFluid::write(core::Checkpoint& checkpoint, double time) const {
 void CompressibleFluid::read(const core::Checkpoint& checkpoint, double time) {
   const core::Ranks* ranks = equations_.constants().grid.ranks.get();
   std::array<double, 3> kg{};
-  const auto kept = [&](const char* name) {  // 0 from an incompressible fluid, from which a run may begin
+  const auto kept = [&](const char* name) {  // 0 for an incompressible fluid, from which a run can start
     const auto number = checkpoint.numbers.find(name);
     return number == checkpoint.numbers.end() ? 0.0 : number->second;
   };
@@ -170,7 +169,7 @@ void FirstOrder::write(core::Checkpoint& checkpoint, double) const {
   if (!fallback_.steps_left().empty()) checkpoint.arrays["first_order_steps_left"] = fallback_.steps_left();
 }
 
-/// A run has flags only while a cell is out of bounds, so a checkpoint without them has none.
+/// A run has flags only while a cell is out of bounds, so a checkpoint can lack them.
 void FirstOrder::read(const core::Checkpoint& checkpoint, double) {
   const auto flags = checkpoint.arrays.find("first_order_steps_left");
   const bool known = checkpoint.integers.contains("first_order_cells");

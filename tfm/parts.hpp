@@ -1,4 +1,4 @@
-// What takes part in the steps of a model where its scene has it.
+// Parts of a model's steps that only some scenes need.
 #pragma once
 
 #include "core/timers.hpp"
@@ -10,9 +10,9 @@
 
 namespace polybed::tfm {
 
-/// The solids' equations where the solids are, not in the whole column.
-/// They are evaluated below the highest row that contains solids, and in some rows above, where their velocities have
-/// time to become those of the flow before solids arrive. It depends on the state alone, as a restart needs.
+/// Restricts the solids' equations to the solids instead of the whole column. They are evaluated below the highest row
+/// with solids, and in some rows above it, so that velocities there can adjust to the flow before solids arrive. The
+/// choice depends on the state alone, as a restart requires.
 class FollowBed : public StepPart {
  public:
   FollowBed(RightHandSide& equations, const StateLayout& layout) : equations_(equations), layout_(layout) {}
@@ -23,7 +23,7 @@ class FollowBed : public StepPart {
   const StateLayout& layout_;
 };
 
-/// A compressible fluid: its pressure at the start, and the account of its mass.
+/// A compressible fluid: its pressure at the start, and the account for its mass.
 class CompressibleFluid : public StepPart {
  public:
   CompressibleFluid(RightHandSide& equations, const StateLayout& layout, core::Timers& timers)
@@ -35,7 +35,7 @@ class CompressibleFluid : public StepPart {
   void write(core::Checkpoint& checkpoint, double time) const override;
   void read(const core::Checkpoint& checkpoint, double time) override;
 
-  /// What has flowed in and out by a time within the last step, s.
+  /// Inflow and outflow up to a time within the last step, s.
   [[nodiscard]] fluid::MassAccount account(double time) const { return ledger_.at(time); }
 
  private:
@@ -45,13 +45,13 @@ class CompressibleFluid : public StepPart {
   fluid::FluidLedger ledger_;
 };
 
-/// Where the inlet jumps at a time, s, from `before`, an impulse brings fluxes and velocities to the new value at once,
-/// with the operator that the pressure uses. Nothing happens to a jump below 1e-9 of a velocity scale, m/s. Collective.
-/// \param before  the inlet's velocity on the faces where it is given, of a field that is 0 elsewhere, m/s
+/// At a jump of the inlet at a time, s, from `before`, an impulse brings fluxes and velocities to the new value at
+/// once, with the operator for the pressure. Ignores a jump below 1e-9 of a velocity scale, m/s. Collective.
+/// \param before  the inlet's velocity on the faces where it is given, as a field that is 0 elsewhere, m/s
 void project_jump(RightHandSide& equations, const StateLayout& layout, double velocity_scale, double time,
                   const core::FaceField& before, std::span<double> y);
 
-/// Of an incompressible fluid: one that is compressible learns of a jump by sound.
+/// For an incompressible fluid: a compressible one receives a jump as sound.
 class InletJump : public StepPart {
  public:
   InletJump(RightHandSide& equations, const StateLayout& layout, double velocity_scale)
@@ -64,7 +64,7 @@ class InletJump : public StepPart {
   double velocity_scale_;
 };
 
-/// A bed that is denser than its solids can be ends the run.
+/// Ends a run if the bed exceeds its maximum packing.
 class PackingCheck : public StepPart {
  public:
   PackingCheck(const Constants& constants, const StateLayout& layout, const StressEffect* stress)
@@ -72,7 +72,7 @@ class PackingCheck : public StepPart {
   void accept(double time, std::span<const double> y) override {
     if (!permissive_) require_packing(constants_, layout_, y, time, stress_);
   }
-  /// Whether steps that leave solids far above their packing are taken.
+  /// Accept steps beyond maximum packing; otherwise throw.
   void go_on_above_packing(bool go_on) { permissive_ = go_on; }
 
  private:
@@ -82,7 +82,7 @@ class PackingCheck : public StepPart {
   bool permissive_ = false;
 };
 
-/// The fallback to fluxes of first order, where those of the solids are limited ones.
+/// The fallback to first-order fluxes, if the solids have limited ones.
 class FirstOrder : public StepPart {
  public:
   /// \param atol_fraction  absolute tolerance of the fractions in the time integration

@@ -17,7 +17,7 @@ using Kind = StateLayout::Entry::Kind;
 
 namespace {
 
-/// Cycles of multigrid per application, where it serves; two were found to pay.
+/// Multigrid cycles per application, where multigrid is used; two were found to pay.
 constexpr int cycles = 2;
 
 std::vector<Field> rows_of_fields(const core::Grid& grid, std::size_t rows) {
@@ -176,7 +176,7 @@ void Preconditioner::correct_faces() {
   }
 }
 
-/// Step 4, and everything to its place.
+/// Step 4, and copies everything to its place.
 void Preconditioner::pack(const StateLayout& layout, std::span<double> z) {
   for (const StateLayout::Entry& entry : layout.entries()) {
     const auto j = std::size_t(entry.species), a = std::size_t(entry.axis);
@@ -202,7 +202,7 @@ void Preconditioner::pack(const StateLayout& layout, std::span<double> z) {
         layout.pack(entry, work_, z);
         break;
       case Kind::pressure:
-        // In closed cells it stays: what the solver leaves there would grow from step to step.
+        // Unchanged in closed cells: the solver's values there would grow from step to step.
         for (std::size_t c = 0; constants_.grid.metric && c < dp_.size(); ++c)
           if (!(constants_.grid.metric->volume[c] > 0)) dp_[c] = 0;
         layout.pack(entry, dp_, z);

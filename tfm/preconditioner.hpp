@@ -8,13 +8,13 @@
 //          R_q = S^-1 (1/rho_j.., B),   R_g = S^-1 (1/(phi rho_j).., sum phi_j/(phi rho_j))
 //   cell:  A (dp, q) = (kappa c dp, c q/L) - div( C grad(dp, q) ),  L = p_s' + lambda c
 //          (kappa = 0 if the fluid is incompressible); inverted approximately by core::BlockSolver.
-//          q = p_s' sum dphi_j - lambda div sum phi_j v_j is the change of p_s: lambda is pressed by motion, not by
+//          q = p_s' sum dphi_j - lambda div sum phi_j v_j is the change of p_s: lambda acts on motion, not on
 //          r_phi
 //   apply: 1. v = S^-1 r on faces
 //          2. A (dp, q) = ( r_p - div v_J , (p_s'/L) sum r_phi_j - div sum phi_j v_j )
 //          3. v -= R_q grad dp + R_g grad q
-//          4. dphi_j = (r_phi_j - div(phi_j v_j))/c, and (r + phi_j v_j)/c for what crosses an open end,
-//             dtheta_j = r_theta_j/(c + decay), where theta_j is an unknown
+//          4. dphi_j = (r_phi_j - div(phi_j v_j))/c, and (r + phi_j v_j)/c for passages through open ends,
+//             dtheta_j = r_theta_j/(c + decay), if theta_j is an unknown
 //
 // Step 4 has unit column sums up to 1/c: mass is kept to round-off however inexact step 2 is.
 #pragma once
@@ -32,11 +32,11 @@ namespace polybed::tfm {
 
 class Preconditioner {
  public:
-  static constexpr std::size_t most_rows = 16;  ///< unknowns of a face: fifteen species and the flux
+  static constexpr std::size_t most_rows = 16;  ///< unknowns on a face: fifteen species and the flux
 
   Preconditioner(const Constants& constants, const fluid::Boundaries& boundaries);
 
-  /// Builds S^-1, the responses and the elliptic system from the fields of one evaluation. False if it fails.
+  /// Builds S^-1, the responses and the elliptic system from the fields of one evaluation. Returns false on failure.
   [[nodiscard]] bool setup(const Fields& fields, double c);
 
   /// z = P^-1 r, entries in the order of the layout.
@@ -62,8 +62,8 @@ class Preconditioner {
 
   const Constants& constants_;
   const fluid::Boundaries& boundaries_;
-  std::size_t rows_;         ///< species + 1: unknowns of a face
-  std::vector<bool> moves_;  ///< of the species on the face at hand: false where it is held
+  std::size_t rows_;         ///< species + 1: unknowns on a face
+  std::vector<bool> moves_;  ///< for the species on the present face: false if it is held
   double c_ = 0;
   std::array<std::vector<double>, 3> inverse_;                 ///< S^-1 by face, row major
   std::array<std::vector<core::Field>, 3> response_pressure_;  ///< R_q by axis and row
@@ -75,7 +75,7 @@ class Preconditioner {
   std::array<std::vector<core::Field>, 3> face_value_;         ///< residuals, then corrections, by row
   std::vector<core::Field> fraction_residual_;
   std::vector<core::FaceField> passed_residual_;
-  std::vector<core::Field> temperature_residual_, temperature_row_;  ///< c + decay of theta_j; empty without
+  std::vector<core::Field> temperature_residual_, temperature_row_;  ///< c + decay of theta_j; or empty
   core::Field pressure_residual_, source_p_, source_s_, dp_, work_;
   core::FaceField flux_;
   core::BlockSolver solver_;

@@ -1,4 +1,4 @@
-// What the preconditioner is made of: S of every face inverted, its responses, and the elliptic system.
+// Setup of the preconditioner: inverts S on every face, and computes its responses and the elliptic system.
 #include <Eigen/Dense>
 #include <algorithm>
 
@@ -59,7 +59,7 @@ bool Preconditioner::setup(const Fields& fields, double c) {
                        diagonal_, c);
 }
 
-/// At an open outlet solids move, but only those that rise are carried through, and none that is fed there.
+/// At an open outlet only solids that rise move, and none that is fed there.
 template <class Density>
 void Preconditioner::build(const Fields& fields, const Density& density, int axis, const core::Box& box, Place place) {
   const Index s = constants_.grid.stride(axis);
@@ -82,7 +82,7 @@ void Preconditioner::build(const Fields& fields, const Density& density, int axi
 }
 
 /// Diagonal of -div(grad U + grad U^T - 2/3 div U I) for the velocity on a face, 1/m2. The viscosity of the solids
-/// enters S by its diagonal, as if the neighbours stood still.
+/// enters S through its diagonal, as if the neighbours were at rest.
 double Preconditioner::viscous_diagonal(int axis, Index face) const {
   const core::Grid& grid = constants_.grid;
   double sum = 0;
@@ -100,8 +100,8 @@ double Preconditioner::viscous_diagonal(int axis, Index face) const {
   return sum;
 }
 
-/// Added mass, as effects/added_mass.cpp has it: turns rows of what forces do to U_1..U_N and J of a face, each phase
-/// by itself, into those of all phases together.
+/// Added mass, as in effects/added_mass.cpp: converts rows with the effect of forces on U_1..U_N and J of a face, for
+/// each phase alone, into rows for all phases coupled.
 template <class Rows>
 void Preconditioner::couple(const Fields& fields, double fluid_density, int axis, Index face, Rows& rows) const {
   const auto a = std::size_t(axis), at = std::size_t(face);
@@ -126,7 +126,7 @@ void Preconditioner::couple(const Fields& fields, double fluid_density, int axis
   }
 }
 
-/// S of one face, inverted into its place; the row of a species that is held there is c dU_j.
+/// Inverts S on one face in place; the row of a species that is held there is c dU_j.
 void Preconditioner::invert_face(const Fields& fields, double fluid_density, int axis, Index face) {
   const auto a = std::size_t(axis), at = std::size_t(face);
   const Index stride = constants_.grid.stride(axis);

@@ -1,4 +1,4 @@
-// The net pressure's part in the rates: the last terms of (2) and (4).
+// Contribution of the net pressure to the rates: the last terms of (2) and (4).
 #pragma once
 
 #include <span>
@@ -9,11 +9,11 @@
 
 namespace polybed::tfm {
 
-/// Turns a_j into dU_j/dt and the free rate of J into dJ/dt: subtracts grad p / rho_j (form A) and B grad p, in place;
-/// with added mass its responses times grad p. fields.fluid.pressure is read; its ghosts are set.
+/// Converts a_j into dU_j/dt and the free rate of J into dJ/dt: subtracts grad p / rho_j (form A) and B grad p, in
+/// place; with added mass its responses times grad p. Reads fields.fluid.pressure and sets its ghosts.
 void subtract_pressure_gradient(const Constants& constants, const fluid::Boundaries& boundaries, Fields& fields);
 
-/// Writes the rates of all fields to their places in dydt; entries of the pressure are left alone, unless the fluid is
+/// Writes the rates of all fields to their places in dydt; entries of the pressure stay unchanged, unless the fluid is
 /// compressible.
 void pack_rates(const StateLayout& layout, const Fields& fields, std::span<double> dydt);
 

@@ -46,10 +46,9 @@ RightHandSide::RightHandSide(const core::Scene& scene, Constants constants, flui
 //   (3) a_f = -(U_f.grad)U_f + div(eps tau)/(eps rho_f) - sum_j phi_j [b_j (U_f - U_j) + f_j]/(eps rho_f)
 //   (4) dJ/dt = eps a_f + sum_j phi_j a_j + sum_j (U_j - U_f) dphi_j/dt - B grad p
 //
-// f_j is the force of closures on single particles (lift) over their volume. Added mass couples the accelerations and
-// takes other numbers than 1/rho_j and 1/rho_f into (2) and B: effects/added_mass.cpp. Of a compressible fluid there is
-// (5) of fluid/compressible.hpp. rho_f in (2) stands for rho_0 there, and (3) has its
-// -(1 - rho_0/rho_f) g besides.
+// f_j is the closures' force on individual particles (lift) over their volume. Added mass couples the accelerations and
+// replaces 1/rho_j and 1/rho_f in (2) and B: effects/added_mass.cpp. A compressible fluid adds (5) of
+// fluid/compressible.hpp; rho_f in (2) is then rho_0, and (3) has the additional term -(1 - rho_0/rho_f) g.
 bool RightHandSide::evaluate(double t, const StateLayout& layout, std::span<const double> y) {
   const auto timed = [&](const char* term, auto&& work) {
     const auto scope = timers_.scope(term);
@@ -96,7 +95,7 @@ bool RightHandSide::evaluate(double t, const StateLayout& layout, std::span<cons
   return true;
 }
 
-/// Density of a compressible fluid; false at a pressure that has none.
+/// Computes the density of a compressible fluid; false if a pressure has none.
 bool RightHandSide::equation_of_state() {
   if (!effects_.compressible) return true;
   const auto scope = timers_.scope("equation of state");
@@ -107,7 +106,7 @@ void RightHandSide::hold_solids_above(int row) {
   if (row == solids_rows_) return;
   solids_rows_ = row;
   boundaries_.hold_solids_above(row);
-  // What was found above before must not be taken for what is there.
+  // Clear older results above the row.
   const auto clear = [](core::Field& field) { std::fill(field.begin(), field.end(), 0.0); };
   const auto clear_all = [&](auto& list) { std::for_each(list.begin(), list.end(), clear); };
   clear_all(flux_);
@@ -137,7 +136,7 @@ std::optional<fluid::MassFlow> RightHandSide::mass_flow(double t, const StateLay
   return fluid::mass_flow(constants_.grid, boundaries_, fields_.fluid, fields_.fluid.compression.flux);
 }
 
-/// Pressure of the solids and, where effects give them any, viscosity and granular temperature.
+/// Adds the pressure of the solids and, with the corresponding effects, viscosity and granular temperature.
 void RightHandSide::add_solids_stress() {
   SolidsStress& stress = fields_.stress;
   effects_.solids_stress->evaluate(fields_);
@@ -152,12 +151,12 @@ void RightHandSide::add_solids_stress() {
     if (effects_.solids_wall) effects_.solids_wall->fill_ghosts(fields_);
     add_solids_viscosity(constants_, boundaries_, fields_, viscous_weight_);
   }
-  if (boundaries_.open())  // nothing presses back from beyond
+  if (boundaries_.open())  // nothing outside pushes back
     fluid::set_outlet_pressure(constants_.grid, boundaries_, stress.pressure);
   subtract_stress(constants_, boundaries_, fields_);
 }
 
-/// Forces of closures on single particles, on the solids and in the opposite direction on the fluid.
+/// Adds the closures' forces on individual particles to the solids and, with the opposite sign, to the fluid.
 void RightHandSide::add_particle_forces() {
   for (int axis = 0; axis < constants_.grid.dimensions; ++axis) {
     for (core::Field& force : fields_.force.on_solids) std::fill(force.begin(), force.end(), 0.0);
@@ -179,14 +178,14 @@ void RightHandSide::set_flux_rate(double t) {
   set_inlet_rate(t);
 }
 
-/// Ghosts of the unknowns, and what follows from them without a closure: composition and fluid velocity.
+/// Fills ghosts of the unknowns, and computes composition and fluid velocity, which need no closure.
 void RightHandSide::fill_ghosts(double t) {
   if (constants_.openings.present()) constants_.openings.set_velocities(side_of(t), fields_.solids);
   boundaries_.fill(state_ghosts_);
   if (constants_.openings.present()) {
     constants_.openings.set_ghosts(side_of(t), fields_.solids);
     const int every = constants_.openings.in_sides() ? 1 : 2;
-    for (core::Field& phi : fields_.solids.fraction)  // the row beyond the end, of the neighbours to the sides
+    for (core::Field& phi : fields_.solids.fraction)  // the row beyond the end, for lateral neighbours
       for (int axis = 0; axis < constants_.grid.dimensions; axis += every) boundaries_.join(phi, axis);
   }
   composition(constants_, fields_);
@@ -195,12 +194,12 @@ void RightHandSide::fill_ghosts(double t) {
   inlet_.extend(fields_.fluid.velocity);
 }
 
-/// The side of a breakpoint or jump of the inlet that a time stands for: the end of a step lies before it.
+/// The side of a breakpoint or jump of the inlet for a time: the end of a step lies before it.
 double RightHandSide::side_of(double t) const {
   return t > begin_ ? std::nextafter(t, -std::numeric_limits<double>::infinity()) : t;
 }
 
-/// The flux through the distributor is what the inlet says, not what the integrator has made of its rate.
+/// Sets the flux through the distributor to the inlet's value, as its integrated rate has an error.
 void RightHandSide::set_inlet_velocity(double t) {
   if (boundaries_.closed()) return;
   inlet_.set_velocity(side_of(t), fields_.fluid.flux);

@@ -16,8 +16,8 @@
 namespace polybed::tfm {
 
 struct Discretisation {
-  Scheme flux = Scheme::limited;     ///< of the solids fractions
-  Scheme momentum = Scheme::upwind;  ///< of the velocities
+  Scheme flux = Scheme::limited;     ///< for the solids fractions
+  Scheme momentum = Scheme::upwind;  ///< for the velocities
   fluid::WallSlip solids_wall = fluid::WallSlip::free_slip;
 };
 
@@ -28,23 +28,23 @@ class RightHandSide {
   RightHandSide(const RightHandSide&) = delete;
   RightHandSide& operator=(const RightHandSide&) = delete;
 
-  /// Evaluates every term at (t, y); the result stands in fields(). False if the state is none that closures
-  /// can be asked about (not finite, or a cell with more than its volume of solids): the step must shrink.
+  /// Evaluates every term at (t, y); the result is in fields(). Returns false if closures cannot be evaluated for the
+  /// state (not finite, or a cell with more than its volume of solids): the step must shrink.
   [[nodiscard]] bool evaluate(double t, const StateLayout& layout, std::span<const double> y);
 
-  /// Of a compressible fluid: what flows in and out in a state; nothing if its pressure has no density. The unknowns
-  /// of that state stand in fields().
+  /// Flow of a compressible fluid in and out for a state; nothing if its pressure has no density. The unknowns of that
+  /// state are then in fields().
   [[nodiscard]] std::optional<fluid::MassFlow> mass_flow(double t, const StateLayout& layout,
                                                          std::span<const double> y);
 
   [[nodiscard]] const Constants& constants() const { return constants_; }
   [[nodiscard]] const fluid::Boundaries& boundaries() const { return boundaries_; }
   [[nodiscard]] const fluid::Inlet& inlet() const { return inlet_; }
-  /// An integration begins at a time, s: where the inlet jumps there, it has jumped; at later times it has not yet.
+  /// Starts an integration at a time, s: a jump of the inlet at that time has happened; later ones have not.
   void begin(double t) { begin_ = t; }
-  /// Faces on which the solids' flux is of first order from now on; null: none. The list must outlive its use.
+  /// Sets faces with first-order flux of the solids from now on; null: none. The list must outlive its use.
   void take_first_order_on(const FaceList* faces) { first_order_ = faces; }
-  /// The solids' equations are asked below a row of cells of the column only; above it solids stay as they are.
+  /// Solves the solids' equations only below a row of cells of the column; solids above it stay unchanged.
   void hold_solids_above(int row);
   [[nodiscard]] const Effects& effects() const { return effects_; }
   [[nodiscard]] Fields& fields() { return fields_; }
@@ -73,8 +73,8 @@ class RightHandSide {
   ConservativeConvection convection_;
   int solids_rows_ = std::numeric_limits<int>::max();
   const FaceList* first_order_ = nullptr;
-  std::vector<fluid::Ghosts> state_ghosts_;  ///< the unknowns, whose ghosts travel together
-  core::Field viscous_weight_;               ///< work space of the solids' viscosity; empty without
+  std::vector<fluid::Ghosts> state_ghosts_;  ///< the unknowns, whose ghosts share messages
+  core::Field viscous_weight_;               ///< work space for the solids' viscosity; empty without
 };
 
 }  // namespace polybed::tfm

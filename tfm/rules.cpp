@@ -32,7 +32,7 @@ Broken wall_without_viscosity(const Scene& scene) {
                          !relevance::effects::solids_stress.has(scene, relevance::effects::with_collisions));
 }
 
-/// Walls that hold solids have to follow the grid, as they do around an axis.
+/// Walls that stop the solids' motion must follow the grid, as they do around an axis.
 Broken solids_held_by_a_round_wall(const Scene& scene) {
   const core::ColumnShape shape = scene.column.shape;
   const core::SolidsWall wall = scene.tfm.solids_wall;
@@ -53,12 +53,12 @@ core::Rule for_particles(std::vector<std::string> keys, const std::string& what,
           [is_so](const Scene& scene) { return core::broken_if(is_so(scene)); }};
 }
 
-/// Species that are fed on every face of the top, so that none of them can leave through it.
+/// Species that are fed on every face of the top, so that none can leave through it.
 Broken outlet_fed_shut(const Scene& scene) {
   Broken broken;
   if (scene.column.outlet != core::Outlet::open || scene.column.closed) return broken;
   const core::Grid grid = core::grid_of(scene.column, nullptr);
-  std::map<std::string, std::vector<double>> fed;  // of each face, by species
+  std::map<std::string, std::vector<double>> fed;  // on each face, by species
   for (std::size_t n = 0; n < scene.feeds.size(); ++n) {
     const core::Feed& feed = scene.feeds[n];
     if (feed.at != core::ColumnFace::top) continue;
@@ -72,7 +72,7 @@ Broken outlet_fed_shut(const Scene& scene) {
   return broken;
 }
 
-/// Feeds, jets and discharges through which nothing can pass, since all their cells are cut off by a round wall.
+/// Feeds, jets and discharges with no flow, since a round wall cuts off all their cells.
 Broken on_closed_cells(const Scene& scene) {
   Broken broken;
   if ((!scene.column.is_round() && !scene.column.is_tapered()) || scene.column.closed) return broken;
@@ -90,7 +90,7 @@ Broken on_closed_cells(const Scene& scene) {
   return broken;
 }
 
-/// A discharge and a feed through one face of a cell, on which the solids have one velocity alone.
+/// A discharge and a feed through one face of a cell, where the solids have only one velocity.
 Broken discharge_beside_a_feed(const Scene& scene) {
   Broken broken;
   const core::Grid grid = core::grid_of(scene.column, nullptr);
@@ -114,7 +114,7 @@ bool leans(const Scene& scene) {
   return down[0] != 0 || down[2] != 0 || !(down[1] < 0);
 }
 
-/// Of a column that leans: it needs walls to lean on and a start that does not ask where down is.
+/// For a tilted column: it needs walls that support the solids and a start that does not depend on the vertical.
 core::Rule for_leaning_particles(const std::string& key, const std::string& where, bool (*is_so)(const Scene&)) {
   return {{"column.gravity_direction", key},
           "column.gravity_direction other than down " + where + only_particles,
@@ -183,7 +183,7 @@ const std::vector<core::Rule>& model_rules() {
        std::string("bed.start = \"{}\"") + only_particles,
        [](const Scene& s) {
          const StartKind kind = s.bed.start.kind;
-         const bool counted = kind == StartKind::checkpoint && !(s.bed.solids_fraction > 0);  // of particles alone
+         const bool counted = kind == StartKind::checkpoint && !(s.bed.solids_fraction > 0);  // made by particles alone
          return kind == StartKind::random || kind == StartKind::list || counted ? Broken({text_of(s.bed.start)})
                                                                                 : Broken();
        }},

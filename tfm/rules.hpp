@@ -1,4 +1,4 @@
-// What the two-fluid model asks of a scene.
+// Requirements of the two-fluid model on a scene.
 #pragma once
 
 #include <string>
@@ -9,23 +9,23 @@
 
 namespace polybed::tfm {
 
-/// What the keys of [tfm] require, whatever effects there are.
+/// Requirements of the keys in [tfm], whatever effects there are.
 [[nodiscard]] std::vector<core::Rule> key_rules();
 
-/// Of these what the maximum packing and tables of the stress require.
+/// The part of them for the maximum packing and tables of the stress.
 [[nodiscard]] std::vector<core::Rule> stress_rules();
 
-/// What the bed at its start and the integrator require: a model that is made from a scene which breaks one of these
-/// throws core::StartError.
+/// Requirements of the initial bed and the integrator. A model throws core::StartError for a scene that breaks one of
+/// these.
 [[nodiscard]] std::vector<core::Rule> start_rules();
 
-/// What is wrong with a relative tolerance of implicit steps; empty where nothing is.
+/// The problem with a relative tolerance for implicit steps; empty if there is none.
 [[nodiscard]] std::string wrong_with_implicit_tolerance(double rtol);
 
-/// What this model alone asks of a scene: each rule names what is for the DEM only.
+/// Requirements of this model alone on a scene: each rule names a feature that only the DEM supports.
 [[nodiscard]] const std::vector<core::Rule>& model_rules();
 
-/// The scene; throws core::CaseError with the messages of all rules that it breaks.
+/// Returns the scene; throws core::CaseError with the messages of all rules that it breaks.
 [[nodiscard]] const core::Scene& continuum_scene(const core::Scene& scene);
 
 }  // namespace polybed::tfm

@@ -1,4 +1,4 @@
-// What the maximum packing, tables of the stress, the bed at its start and the integrator require of a scene.
+// Requirements of the maximum packing, stress tables, the initial bed and the integrator on a scene.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -25,7 +25,7 @@ using core::Scene;
 
 bool is_pressed(const Scene& scene) { return core::acts(scene, "solids_stress"); }
 
-/// kg/m3; nothing if it is not known, for which there is a rule.
+/// kg/m3; nothing if it is unknown, which another rule reports.
 std::optional<double> density_of_fluid(const Scene& scene) {
   if (!scene.fluid.present()) return {};
   try {
@@ -41,7 +41,7 @@ bool has_shares(const Scene& scene) {
 
 bool has_rule(const Scene& scene, core::PackingRule rule) { return scene.tfm.max_packing == core::MaxPacking(rule); }
 
-/// phi_max of shares of the species, where it can be told.
+/// phi_max for shares of the species, if it can be computed.
 std::optional<double> packing_of(const Scene& scene, const std::vector<double>& share) {
   const bool wrong_pair = has_rule(scene, core::PackingRule::fedors_landel) && scene.species.size() != 2;
   const std::optional<double> density = density_of_fluid(scene);
@@ -49,7 +49,7 @@ std::optional<double> packing_of(const Scene& scene, const std::vector<double>& 
   return max_packing_of(scene, share, *density);
 }
 
-/// tfm.max_packing as the case gives it, a rule with what it gives.
+/// tfm.max_packing as in the case; for a mixture rule also its result.
 std::string packing_text(const Scene& scene, double packing) {
   const auto* rule = std::get_if<core::PackingRule>(&scene.tfm.max_packing);
   return rule == nullptr ? fmt::format("{}", packing)
@@ -80,7 +80,7 @@ Broken bed_too_light(const Scene& scene) {
   return core::broken_if(most && scene.bed.solids_fraction > 0 && !(*most < 1));
 }
 
-/// A run stops where solids lie above the maximum packing by as much.
+/// A run stops if solids exceed the maximum packing by this much.
 Broken start_above_packing(const Scene& scene) {
   const bool held_at_settled = has_rule(scene, core::PackingRule::automatic) && scene.layers.empty();
   if (held_at_settled || !has_shares(scene)) return {};
@@ -115,7 +115,7 @@ Broken split_without_drag(const Scene& scene) {
   return Broken({scene.fluid.compressible() ? "an incompressible fluid" : "a drag law"});
 }
 
-/// Whether steps are implicit by the case, or by what "auto" is sure to choose.
+/// Whether steps are implicit by the case, or certainly by "auto".
 bool steps_are_implicit(const Scene& scene) {
   if (scene.tfm.integrator != core::TfmIntegrator::automatic)
     return scene.tfm.integrator == core::TfmIntegrator::implicit_steps;
@@ -135,7 +135,7 @@ Broken implicit_tolerance(const Scene& scene) {
   return steps_are_implicit(scene) && !wrong.empty() ? Broken({fmt::format("{}", scene.tfm.rtol), wrong}) : Broken();
 }
 
-/// Of a role that a table fills: what is wrong with the table here.
+/// A rule for a role with a table: reports the problem of the table in this scene.
 core::Rule table_rule(const std::string& role, std::string (*wrong)(const Scene&, const std::string& file)) {
   return {{"effects." + role, "effects.solids_stress", "effects.granular_temperature", "effects.solids_viscosity",
            "effects.drag", "tfm.solids_wall", "species.", "bed.", "fluid.", "column.", "calibrate.regime",
@@ -148,7 +148,7 @@ core::Rule table_rule(const std::string& role, std::string (*wrong)(const Scene&
           }};
 }
 
-/// Keys that the maximum packing follows from.
+/// Keys that determine the maximum packing.
 std::vector<std::string> packing_keys(std::vector<std::string> first) {
   for (const char* key : {"bed.volume_share", "bed.static_height", "bed.particles", "species.diameter",
                           "species.density", "species.max_packing", "fluid.", "column."})

@@ -26,7 +26,7 @@ closures::DragLaw law_of_scene(const core::Scene& scene) {
   return relevance::with_shape(relevance::drag_law_named(core::law_of(scene, "drag")), scene);
 }
 
-/// Voidage at which drag carries the buoyant weight of one species alone, in [0.4, 0.99].
+/// Voidage at which drag balances the buoyant weight of one species alone, in [0.4, 0.99].
 double floating_voidage(const core::Scene& scene, const closures::DragLaw& law, const core::Species& species,
                         const relevance::FluidConstants& fluid, double velocity) {
   const closures::CarriedBed bed{species.diameter, std::abs(species.density - fluid.density), fluid.density,

@@ -37,7 +37,7 @@ void solids_flux(const core::Grid& grid, const fluid::Boundaries& boundaries, co
   }
 }
 
-/// The faces of a list done again, of first order.
+/// Recomputes the faces in a list, first order.
 void redo_upwind(const core::Grid& grid, const FaceList& faces, const Field& fraction, const core::FaceField& velocity,
                  core::FaceField& flux) {
   for (int axis = 0; axis < grid.dimensions; ++axis) {
@@ -48,7 +48,7 @@ void redo_upwind(const core::Grid& grid, const FaceList& faces, const Field& fra
   }
 }
 
-/// Takes the flux of a species from that of the mixture.
+/// Subtracts the flux of a species from the mixture's.
 void subtract(const core::FaceField& flux, core::FaceField& from) {
   for (std::size_t a = 0; a < flux.size(); ++a)
     for (std::size_t f = 0; f < flux[a].size(); ++f) from[a][f] -= flux[a][f];

@@ -15,26 +15,25 @@
 
 namespace polybed::tfm {
 
-/// Least solids fraction that the gradient of the solids pressure is divided by.
+/// Least solids fraction as a divisor of the gradient of the solids pressure.
 constexpr double stress_fraction_floor = 1e-3;
 
-/// How a quantity is taken to faces or differenced.
+/// Interpolation of a quantity to faces, or its difference.
 enum class Scheme { upwind, limited };
 
-/// (1): fraction_rate = -div F_j with F_j = U_j times phi_j from upwind, with half a limited slope if
-/// `limited`, and with what crosses the ends at time t. Ghosts of the rate are filled. flux_j is work space. If the
-/// fluid is compressible its own flux, J - sum F_j, is set too.
-/// \param first_order  faces that take phi_j from upwind alone whatever the scheme; null: none
-/// \param momentum  convection that these fluxes carry; null: none
+/// (1): fraction_rate = -div F_j with F_j = U_j times upwind phi_j, with half a limited slope if `limited`, and with
+/// the flow through the ends at time t. Fills ghosts of the rate. flux_j is work space. For a compressible fluid also
+/// sets its own flux, J - sum F_j.
+/// \param first_order  faces with plain upwind phi_j whatever the scheme; null: none
+/// \param momentum  convection with these fluxes; null: none
 void continuity(const Constants&, const fluid::Boundaries&, Scheme, double t, Fields&, core::FaceField& flux,
                 const FaceList* first_order, ConservativeConvection* momentum);
 
-/// Of a compressible fluid: sets its own flux, J - sum F_j, on the faces of the ends and of sides that are crossed
-/// alone, to the values that continuity() sets there. J, U_j and phi_j of the owned faces and cells are read. flux is
-/// work space.
+/// For a compressible fluid: sets its own flux, J - sum F_j, only on the faces of the ends and of sides with flow, to
+/// the values from continuity(). Reads J, U_j and phi_j on the owned faces and cells. flux is work space.
 void fluid_flux_through_ends(const Constants&, const fluid::Boundaries&, double t, Fields&, core::FaceField& flux);
 
-/// Adds weight less buoyancy, (1 - rho_f/rho_j) g, along every axis that gravity has a component on.
+/// Adds the buoyant weight, (1 - rho_f/rho_j) g, along every axis with a component of gravity.
 void add_gravity(const Constants&, const fluid::Boundaries&, Fields&);
 
 /// Adds the drag of the fluid, (b_j/rho_j)(U_f - U_j).
@@ -43,7 +42,7 @@ void add_exchange(const Constants&, const fluid::Boundaries&, Fields&);
 /// Subtracts grad p_s / (phi rho_j): the solids pressure shared by volume.
 void subtract_stress(const Constants&, const fluid::Boundaries&, Fields&);
 
-/// Adds the momentum that species hand each other; exact opposites for the two of a pair.
+/// Adds the momentum exchange between species; exact opposites for the two in a pair.
 void add_species_exchange(const Constants&, const fluid::Boundaries&, Fields&);
 
 }  // namespace polybed::tfm

@@ -25,8 +25,8 @@ const core::FileKind kind{"polybed solids table", 1};
 constexpr const char* seal = "crc32";
 
 constexpr double densest = 0.9;          ///< solids fraction of any mixture of spheres
-constexpr double greatest_ratio = 1e3;   ///< measured are 0.03 to 2
-constexpr double greatest_number = 1e6;  ///< of seeds, and of what is no ratio
+constexpr double greatest_ratio = 1e3;   ///< measured: 0.03 to 2
+constexpr double greatest_number = 1e6;  ///< of seeds, and of other numbers
 
 std::uint32_t checksum(const core::OutputFile& table) {
   static_assert(std::endian::native == std::endian::little, "the checksum is over doubles with the low byte first");
@@ -38,10 +38,10 @@ std::uint32_t checksum(const core::OutputFile& table) {
   return sum;
 }
 
-/// Whether a table carries a checksum; files of earlier versions do not.
+/// Whether a table has a checksum; files from earlier versions have none.
 bool is_sealed(const core::OutputFile& table) { return table.has_attribute("/", seal); }
 
-/// Opens a table. Throws core::FileError for another kind of file, and for one whose checksum does not hold.
+/// Opens a table. Throws core::FileError for another kind of file, and for a wrong checksum.
 core::OutputFile open_table(const std::filesystem::path& path) {
   core::OutputFile table(path, kind);
   if (is_sealed(table) && table.attribute("/", seal) != double(checksum(table)))
@@ -49,14 +49,14 @@ core::OutputFile open_table(const std::filesystem::path& path) {
   return table;
 }
 
-/// Writes a table with its checksum: CRC-32 over the numbers of all datasets, as doubles of 8 bytes with the low byte
+/// Writes a table with its checksum: CRC-32 over the numbers in all datasets, as doubles of 8 bytes with the low byte
 /// first, in the order of the datasets' names.
 void save_table(core::OutputFile& table, const std::filesystem::path& path) {
   table.set_attribute("/", seal, std::int64_t(checksum(table)));
   table.save(path);
 }
 
-/// The numbers along an axis; throws core::FileError for a dataset that has not one dimension.
+/// The numbers along an axis; throws core::FileError unless the dataset has one dimension.
 std::vector<double> read_axis(const core::OutputFile& table, const std::filesystem::path& path,
                               const std::string& name) {
   core::DataSet data = table.read(name);
@@ -66,7 +66,7 @@ std::vector<double> read_axis(const core::OutputFile& table, const std::filesyst
   return std::move(data.values);
 }
 
-/// The numbers of a dataset; throws core::FileError for one of another shape than the axes say.
+/// The numbers in a dataset; throws core::FileError if its shape differs from the axes.
 std::vector<double> read_shaped(const core::OutputFile& table, const std::filesystem::path& path,
                                 const std::string& name, const std::vector<std::size_t>& shape) {
   core::DataSet data = table.read(name);
@@ -76,7 +76,7 @@ std::vector<double> read_shaped(const core::OutputFile& table, const std::filesy
   return std::move(data.values);
 }
 
-/// Throws core::FileError unless all values lie in a range, ends included; no range holds a NaN.
+/// Throws core::FileError unless all values are in a range, ends included; a NaN never is.
 void require_range(const std::filesystem::path& path, const std::string& name, std::span<const double> values,
                    double least, double most) {
   for (std::size_t n = 0; n < values.size(); ++n)
@@ -85,7 +85,7 @@ void require_range(const std::filesystem::path& path, const std::string& name, s
                                         n + 1, values[n], least, most));
 }
 
-/// Throws core::FileError unless there are values, they lie in a range and rise.
+/// Throws core::FileError unless there are values, in a range and increasing.
 void require_axis(const std::filesystem::path& path, const std::string& name, std::span<const double> values,
                   double least, double most) {
   if (values.empty()) throw core::FileError(fmt::format("{}: {} has no values", path.string(), name));
@@ -100,14 +100,14 @@ void require_quantity(const std::filesystem::path& path, const std::string& name
   require_range(path, name + "_n", quantity.seeds, 1, greatest_number);
 }
 
-/// Throws core::FileError for values that no p_bed can have; whether it rises is the law's to check.
+/// Throws core::FileError for impossible values of p_bed; the law checks whether it increases.
 void require_values(const std::filesystem::path& path, const BedPressure& bed) {
   require_range(path, "phi of p_bed", bed.phi, 0, densest);
   require_range(path, "p_bed", bed.pressure, 0, greatest_number);
   require_range(path, "p_bed_se", bed.error, 0, greatest_number);
 }
 
-/// Throws core::FileError for values that no table of sheared particles can have.
+/// Throws core::FileError for impossible values in a table of sheared particles.
 void require_values(const std::filesystem::path& path, const SolidsTable& t) {
   constexpr double least = std::numeric_limits<double>::min();
   require_axis(path, "phi", t.phi, least, densest);
@@ -127,10 +127,10 @@ void require_values(const std::filesystem::path& path, const SolidsTable& t) {
   if (!t.bed.phi.empty()) require_values(path, t.bed);
 }
 
-/// Weights of the two knots around a value, the edges held.
+/// Weights of the two knots around a value; outside, the edge's value.
 struct Between {
   std::size_t low = 0, high = 0;
-  double share = 0;  ///< of the high one
+  double share = 0;  ///< share of the high one
 };
 
 Between between(const std::vector<double>& axis, double value) {
@@ -302,7 +302,7 @@ SolidsTable read_solids_table(const std::filesystem::path& path) {
   for (const auto& [name, quantity] : quantities) table.*quantity = quantity_of(name);
   table.shear_number = read_shaped(file, path, "S", shape);
   table.git_commit = file.text_attribute("/", "git_commit");
-  if (file.has("beta_12_drift")) {  // files without it have ratios to another form, that of slow drift
+  if (file.has("beta_12_drift")) {  // older files have ratios to another form, for slow drift
     table.exchange = quantity_of("beta_12_ratio");
     table.exchange_drift = read_shaped(file, path, "beta_12_drift", {1}).front();
     require_range(path, "beta_12_drift", std::span(&table.exchange_drift, 1), 0, std::numeric_limits<double>::max());

@@ -47,7 +47,7 @@ class Strain {
   }
 
  private:
-  /// (du_a/dx_b + du_b/dx_a)^2 on the edge below the faces c of both axes, as far as the edge transmits shear.
+  /// (du_a/dx_b + du_b/dx_a)^2 on the edge below the faces c of both axes, times the share of shear that it transmits.
   [[nodiscard]] double edge(Index c, std::size_t a, std::size_t b) const {
     const double rate =
         (u_[a][c] - u_[a][c - stride_[b]]) * per_length_[b] + (u_[b][c] - u_[b][c - stride_[a]]) * per_length_[a];

@@ -10,18 +10,18 @@
 
 namespace polybed::tfm {
 
-/// Solids that are added to phi_j where what diffuses in species j is divided by it, so that an empty cell is left in
-/// peace: 1e-4 of the species' share in the whole bed, which is neutral to cutting a species in two.
+/// Added to phi_j as a divisor of diffusion in species j, so that an empty cell stays undisturbed: 1e-4 of the species'
+/// share in the whole bed, so that splitting a species in two changes nothing.
 [[nodiscard]] inline double diffusion_floor(const Constants& constants, std::size_t species) {
-  return std::max(1e-4 * constants.bed_share[species], 1e-12);  // of a species of share 0: 0/1e-12
+  return std::max(1e-4 * constants.bed_share[species], 1e-12);  // for a species of share 0: 0/1e-12
 }
 
 /// Fills stress.strain with 2 D':D' of each species in the owned cells, 1/s2; gamma^2 in simple shear. Shear is the
-/// mean of the squares on the edges around, so that a ripple from cell to cell is seen, each as far as the edge
-/// transmits shear: the viscosity times it is what the viscous force takes from the mean motion.
+/// mean of the squares on the surrounding edges, which detects a ripple from cell to cell, each times the share that
+/// the edge transmits: times the viscosity it equals the energy that the viscous force takes from the mean motion.
 void strain_rates(const Constants&, const fluid::Boundaries&, Fields&);
 
-/// Adds the viscous force per mass of each species. Ghosts of stress.viscosity and of the velocities must be filled.
+/// Adds the viscous force per mass of each species. Needs ghosts of stress.viscosity and of the velocities.
 /// \param weight  work space: phi_j mu_s/phi on cells
 void add_solids_viscosity(const Constants&, const fluid::Boundaries&, Fields&, core::Field& weight);
 

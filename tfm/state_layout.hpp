@@ -1,4 +1,4 @@
-// Where each unknown stands in the state vector that the integrator advances: field by field, p last.
+// Order of the unknowns in the integrator's state vector: field by field, p last.
 #pragma once
 
 #include <span>
@@ -12,8 +12,8 @@
 
 namespace polybed::tfm {
 
-/// The unknowns: phi_j (cells), U_j and J (all owned faces), theta_j (cells) where it has an equation, what solids have
-/// crossed which faces of ends and sides, and p (cells) where the integrator carries it.
+/// The unknowns: phi_j (cells), U_j and J (all owned faces), theta_j (cells) if it has an equation, volumes of solids
+/// through faces of ends and sides, and p (cells) if the integrator includes it.
 class StateLayout {
  public:
   /// One field of the state: its kind, species (-1 for the mixture), axis (-1 on cells), and place.
@@ -25,7 +25,7 @@ class StateLayout {
   };
 
   StateLayout() = default;
-  /// \param passages  species, and ends or sides, whose faces count what has crossed them
+  /// \param passages  species, and ends or sides, with an unknown on their faces for the volume that has passed
   StateLayout(const core::Grid& grid, int species, bool with_pressure, bool with_temperature = false,
               const std::vector<fluid::Openings::Passage>& passages = {});
 
@@ -33,7 +33,7 @@ class StateLayout {
   [[nodiscard]] const std::vector<Entry>& entries() const { return entries_; }
   [[nodiscard]] bool with_pressure() const { return with_pressure_; }
 
-  /// Copies the state into the padded fields; ghosts are left alone.
+  /// Copies the state into the padded fields; ghosts stay unchanged.
   void unpack(std::span<const double> y, fluid::Interphase& solids, fluid::FluidState& fluid) const;
   /// Copies the owned part of the padded fields into a state vector.
   void pack(const fluid::Interphase& solids, const fluid::FluidState& fluid, std::span<double> y) const;
@@ -44,7 +44,7 @@ class StateLayout {
 
   /// Name of a field of the state: "phi_fine", "u_fine.x", "passed_fine.top".
   [[nodiscard]] static std::string name_of(const Entry& entry, const std::vector<std::string>& species);
-  /// Name of the field and the cell or face of the column that an entry of the state belongs to, for messages.
+  /// Name of the field and the cell or face of an entry of the state, for messages.
   [[nodiscard]] std::string describe(std::size_t index, const std::vector<std::string>& species) const;
 
  private:
@@ -56,7 +56,7 @@ class StateLayout {
   std::vector<Entry> entries_;
 };
 
-/// The padded field that an entry of the state stands for; const if the solids and the fluid are.
+/// The padded field for an entry of the state; const if the solids and the fluid are.
 template <class Solids, class Fluid>
 [[nodiscard]] auto& field_of(const StateLayout::Entry& entry, Solids& solids, Fluid& fluid) {
   using Kind = StateLayout::Entry::Kind;

@@ -20,8 +20,8 @@ namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
-/// 1/s: the slip of the fastest species relaxes while all of them drag the fluid along; and what relaxes slowly beside
-/// steps that take the drag implicitly.
+/// 1/s: relaxation of the fastest species' slip while all species drag the fluid along; and the slow relaxation that
+/// remains in steps with implicit drag.
 struct DragRates {
   double whole = 0, slow = 0;
 };
@@ -43,7 +43,7 @@ DragRates drag_rates(const Constants& constants, const closures::DragLaw& law, c
   return {own + on_fluid, slow.rate()};
 }
 
-/// dp_s/dphi by a central difference: the slot Stress offers the pressure alone.
+/// dp_s/dphi by a central difference: the slot Stress provides only the pressure.
 double stress_slope(const StressEffect& stress, double solids_fraction) {
   constexpr double delta = 1e-5;
   return std::max(
@@ -109,9 +109,8 @@ double explicit_step(const std::vector<TimeScale>& scales) {
 
 namespace {
 
-/// The slower of convection and of the fall of solids through a cell, s, at a tolerance of which steps are a cubic
-/// root.
-/// \param free  solids fall freely, as where a stream lifts them; else no faster than a lone particle
+/// Time for convection and fall of solids through a cell, s, at a tolerance; steps scale with its cubic root.
+/// \param free  solids fall freely, as in a stream that lifts them; else at most as fast as a lone particle
 double accurate_step(const Constants& constants, double velocity, double rtol, double share, bool free) {
   constexpr double measured_at = 1e-3;
   const double h = constants.grid.smallest_spacing();

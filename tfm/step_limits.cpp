@@ -18,7 +18,7 @@ using core::Index;
 
 namespace {
 
-/// Keeps the fastest rate, 1/s, that a process reaches in any cell.
+/// Keeps the fastest rate of a process in any cell, 1/s.
 struct FastestRate {
   double rate = 0;
   Index cell = 0;
@@ -33,10 +33,10 @@ struct FastestRate {
   }
 };
 
-constexpr Index most_together = 128;  ///< cells of a row that are looked at together
+constexpr Index most_together = 128;  ///< cells of a row processed together
 using Rates = std::array<double, std::size_t(most_together)>;
 
-/// Raises the rates of a row of cells, 1/s, to those at which a phase crosses them.
+/// Raises the rates of a row of cells, 1/s, to the rates at which a phase crosses them.
 template <class Metric>
 void raise_to_crossing(const Metric& metric, const core::Grid& grid, const core::FaceField& velocity, Index begin,
                        Index cells, Rates& rates) {
@@ -75,7 +75,7 @@ void for_each_part_of_rows(const core::Grid& grid, const Fields& fields, Body&& 
   });
 }
 
-/// The greatest open face of a cell over its open volume: 1 of whole cells, more of what a round wall leaves of one.
+/// The greatest open face of a cell over its open volume: 1 for whole cells, more for cells cut by a round wall.
 double narrowness(const core::Grid& grid, Index c) {
   double most = 0;
   core::with_metric(grid, [&](const auto& metric) {

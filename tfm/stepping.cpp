@@ -41,14 +41,14 @@ core::ExplicitOptions explicit_options(const RightHandSide& equations, const cor
           equations.constants().grid.ranks, std::move(tolerances.at)};
 }
 
-/// Rates of all unknowns, the pressure among them; the unknowns take the inlet's flux, which may have jumped.
+/// Rates of all unknowns, including the pressure; the unknowns take the inlet's flux, which may have jumped.
 void find_rates_with_sound(CompressibleProblem problem, RightHandSide& equations, const StateLayout& layout, double t,
                            std::span<double> y, std::span<double> dydt) {
   if (problem.rates(t, y, dydt) != core::Rate::ok) refuse_compressible_start();
   layout.pack(equations.fields().solids, equations.fields().fluid, y);
 }
 
-/// The pressure of an incompressible fluid is solved for; the drag may be taken implicitly.
+/// For an incompressible fluid: solves for the pressure; the drag can be implicit.
 class ExplicitSteps : public Stepping {
  public:
   ExplicitSteps(RightHandSide& equations, const StateLayout& layout, const core::Tfm& options, Tolerances tolerances,
@@ -98,7 +98,7 @@ class SoundSteps : public Stepping {
   CompressibleProblem problem_;
 };
 
-/// Needs consistent rates and pressure, which one projected right-hand side gives.
+/// Needs consistent rates and pressure, which one projected right-hand side provides.
 class ImplicitSteps : public Stepping {
  public:
   ImplicitSteps(RightHandSide& equations, const StateLayout& layout, Tolerances tolerances, core::Timers& timers)
@@ -113,8 +113,8 @@ class ImplicitSteps : public Stepping {
     made.ranks = equations.constants().grid.ranks;
     made.atol_at = std::move(tolerances.at);
     made.id.assign(layout.size(), 1.0);
-    // Of a compressible fluid p is differential, but left out of the error test all the same: sound that carries
-    // nothing must not set the step.
+    // p of a compressible fluid is differential, but left out of the error test: sound without consequences must not
+    // set the step.
     using Kind = StateLayout::Entry::Kind;
     for (const StateLayout::Entry& entry : layout.entries())
       if (entry.kind == Kind::pressure || entry.kind == Kind::passed)
@@ -125,7 +125,7 @@ class ImplicitSteps : public Stepping {
     Stepping::count(work);
     work.right_hand_sides += problem_.residuals();
   }
-  /// Longer than the integrator's own first step, 0.5/|dydt| in the norm of the error test, where round-off of the
+  /// Longer than the integrator's own first step, 0.5/|dydt| in the norm of the error test, if the round-off of the
   /// fluxes over that would exceed the tolerance of the pressure: Newton then never converges, and shorter steps are
   /// worse.
   [[nodiscard]] double first_step(std::span<const double> y, std::span<const double> dydt) const override {
@@ -146,7 +146,7 @@ class ImplicitSteps : public Stepping {
     }
     const double size = core::sum_of_ranks(grid, double(layout_.size()));
     const double own = 0.5 / std::sqrt(core::sum_of_ranks(grid, squares) / size);
-    constexpr double margin = 100;  // a safe distance from where round-off alone fills the tolerance
+    constexpr double margin = 100;  // a safe distance from round-off that fills the tolerance
     const std::vector<double>& density = equations_.constants().density;
     const double heaviest =
         std::max(equations_.constants().fluid.density, *std::max_element(density.begin(), density.end()));
@@ -155,11 +155,11 @@ class ImplicitSteps : public Stepping {
     const double least = margin * round_off / of_pressure;
     return own < least ? least : 0;
   }
-  /// The pressure is found from zero, so that what follows depends on the other unknowns alone and a resumed run gives
+  /// Solves for the pressure from zero, so that the result depends on the other unknowns alone and a resumed run gives
   /// the same bits.
   void find_rates(double t, std::span<double> y, std::span<double> dydt) override {
     clear_pressure(y);
-    // As exact as may be: what is left of it stops the first steps of a tight tolerance.
+    // As exact as possible: its residual stops the first steps of a tight tolerance.
     const auto found = [&](double tolerance) {
       return ExplicitProblem(equations_, layout_, tolerance, timers_).rates(t, y, dydt) == core::Rate::ok;
     };
@@ -179,8 +179,8 @@ class ImplicitSteps : public Stepping {
 class ImplicitSoundSteps : public ImplicitSteps {
  public:
   using ImplicitSteps::ImplicitSteps;
-  /// What is left of (5) over a small kappa is a rate of the pressure that means nothing beyond the first instant. The
-  /// first implicit step is of order 1 and uses rates as its first guess alone, for which 0 is the better one.
+  /// The residual of (5) over a small kappa is a rate of the pressure without meaning beyond the first instant. The
+  /// first implicit step is of order 1 and uses rates only as its first guess; 0 is the better one.
   void find_rates(double t, std::span<double> y, std::span<double> dydt) override {
     find_rates_with_sound({equations_, layout_}, equations_, layout_, t, y, dydt);
     clear_pressure(dydt);

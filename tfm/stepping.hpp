@@ -1,4 +1,4 @@
-// How a model steps: the form that its equations take, and the integrator of it.
+// Time stepping of a model: the form of its equations, and the integrator.
 #pragma once
 
 #include <memory>
@@ -22,17 +22,17 @@ class Stepping {
   Stepping& operator=(const Stepping&) = delete;
   virtual ~Stepping() = default;
 
-  /// Where an integration begins at (t, y): completes what y lacks, and finds its rates if the integrator needs them.
+  /// Called at the start of an integration at (t, y): completes y, and computes its rates if the integrator needs them.
   virtual void find_rates(double t, std::span<double> y, std::span<double> dydt) = 0;
-  /// The length of the first step, s, from what find_rates() left; 0: the integrator chooses. Collective.
+  /// The length of the first step, s, after find_rates(); 0: the integrator chooses. Collective.
   [[nodiscard]] virtual double first_step(std::span<const double> /*y*/, std::span<const double> /*dydt*/) const {
     return 0;
   }
   /// Called before an integration begins and before each step, with the expected length, s.
   virtual void begin_step(double /*length*/) {}
-  /// Time scales of the processes that may limit a step, from the fields of a finished evaluation.
+  /// Time scales of the processes that can limit a step, from the fields of a finished evaluation.
   [[nodiscard]] virtual std::vector<TimeScale> time_scales() const;
-  /// Adds what the integrator and its problem have counted.
+  /// Adds the counts of the integrator and its problem.
   virtual void count(Work& work) const;
 
   [[nodiscard]] core::Integrator& integrator() const { return *integrator_; }
@@ -44,11 +44,11 @@ class Stepping {
   RightHandSide& equations_;
   const StateLayout& layout_;
   std::unique_ptr<core::Integrator> integrator_;
-  bool split_ = false;  ///< the drag is taken implicitly
+  bool split_ = false;  ///< the drag is implicit
 };
 
-/// By the integrator, which is not automatic, and by whether the fluid is compressible.
-/// \param equations, layout  outlive what is returned
+/// Depends on the integrator, never automatic, and on whether the fluid is compressible.
+/// \param equations, layout  must outlive the result
 [[nodiscard]] std::unique_ptr<Stepping> make_stepping(core::TfmIntegrator kind, RightHandSide& equations,
                                                       const StateLayout& layout, const core::Tfm& options,
                                                       Tolerances tolerances, core::Timers& timers);

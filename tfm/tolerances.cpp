@@ -17,7 +17,7 @@ Tolerances tolerances_of(const RightHandSide& equations, const StateLayout& layo
   tolerances.relative = rtol;
   std::vector<double>& atol = tolerances.absolute;
   atol.resize(layout.size());
-  constexpr double not_tested = 1e9;  // m: sums of fluxes follow from the rest and need no error test of their own
+  constexpr double not_tested = 1e9;  // m: sums of fluxes follow from the rest and need no error test
   for (const StateLayout::Entry& entry : layout.entries()) {
     const double value = entry.kind == Kind::fraction      ? fraction_tolerance(rtol)
                          : entry.kind == Kind::passed      ? not_tested

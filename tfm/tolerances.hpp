@@ -1,4 +1,4 @@
-// Absolute tolerances of the unknowns, from the one relative tolerance of a case.
+// Absolute tolerances of the unknowns, from the one relative tolerance in a case.
 #pragma once
 
 #include <algorithm>
@@ -15,9 +15,9 @@ namespace polybed::tfm {
 /// Below this relative tolerance round-off stops the Newton iteration of implicit steps.
 inline constexpr double least_implicit_tolerance = 1e-10;
 
-/// Relative tolerance of the integrator. Implicit steps use a fifth of that of the case: at the full tolerance the
-/// residuals of their linear solves disturb stresses that grow with shear, steps get no longer, and each takes several
-/// times as many iterations.
+/// Relative tolerance of the integrator. Implicit steps use a fifth of the case's: at the full tolerance the residuals
+/// of their linear solves disturb stresses that grow with shear, steps become no longer, and each takes several times
+/// as many iterations.
 [[nodiscard]] inline double kept_tolerance(core::TfmIntegrator integrator, double rtol) {
   constexpr double share = 0.2;
   return integrator == core::TfmIntegrator::implicit_steps ? std::max(share * rtol, least_implicit_tolerance) : rtol;
@@ -25,8 +25,8 @@ inline constexpr double least_implicit_tolerance = 1e-10;
 
 struct Tolerances {
   double relative = 0;
-  std::vector<double> absolute;  ///< by entry of the state
-  core::TolerancesAt at;         ///< in their place where nothing flows in at times; empty elsewhere
+  std::vector<double> absolute;  ///< by entry in the state
+  core::TolerancesAt at;         ///< replace them if the inflow is zero at times; else empty
 };
 
 /// Absolute tolerance of the fractions.
@@ -34,27 +34,27 @@ struct Tolerances {
 
 /// \param rtol  relative  \param velocity_scale  m/s  \param pressure_scale  Pa: rtol times these is the tolerance of
 /// velocities and pressure
-/// \param equations  outlive what is returned
+/// \param equations  must outlive the result
 [[nodiscard]] Tolerances tolerances_of(const RightHandSide& equations, const StateLayout& layout, double rtol,
                                        double velocity_scale, double pressure_scale);
 
-/// Of a bed that may come to rest, as core::TolerancesAt asks: those of its velocities follow how fast it moves. With
-/// ones that stay, a settled bed creeps within them for ever.
+/// For a bed that can come to rest, as core::TolerancesAt requires: the tolerances of its velocities depend on its
+/// speed. With constant ones a settled bed creeps within them for ever.
 class RestingTolerances {
  public:
-  /// \param moving  absolute tolerances of a bed that moves  \param scale  its velocity, m/s
-  /// \param gravity  m/s2  \param boundaries  outlive this
+  /// \param moving  absolute tolerances for a moving bed  \param scale  its velocity, m/s
+  /// \param gravity  m/s2  \param boundaries  must outlive this
   RestingTolerances(const core::Grid& grid, const fluid::Boundaries& boundaries, const StateLayout& layout,
                     std::vector<double> moving, double scale, double gravity);
-  /// Tolerances of the fluxes, and of velocities of solids on faces beside some, times the greatest speed between cells
-  /// that both hold some over the scale, from 1e-7 to 1. Where rates are known, what they add in the time in which the
-  /// weight gives a body that scale counts as speed: a bed that is let go is not at rest. What falls through an empty
-  /// column falls on when the bed has long come to rest, and keeps its tolerances.
+  /// Tolerances of the fluxes, and of the solids' velocities on faces next to solids, times the greatest speed between
+  /// cells that both contain solids over the scale, from 1e-7 to 1. If rates are known, their change over the time in
+  /// which gravity accelerates a body to that scale counts as speed: a released bed is not at rest. Solids that fall
+  /// through an empty column keep their tolerances: they still fall when the bed is at rest.
   void operator()(std::span<const double> y, std::span<const double> dydt, std::span<double> atol);
 
  private:
-  /// Calls body(n, value) with the place in the state of each velocity that is meant and what `values` has there; with
-  /// those of the bed's surface, or without.
+  /// Calls body(n, value) with the place in the state of each relevant velocity and its entry in `values`; including
+  /// the bed's surface, or without it.
   template <class Body>
   void for_each_velocity(std::span<const double> values, bool surface, Body&& body) const;
   void find_solids(std::span<const double> y);

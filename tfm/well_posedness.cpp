@@ -12,7 +12,7 @@ using core::Index;
 
 namespace {
 
-/// The solids of one cell taken as one.
+/// The solids in one cell as one.
 struct Mixture {
   double fraction = 0, density = 0, slip = 0;
 };
@@ -42,7 +42,7 @@ Mixture mixture_in(const Constants& constants, const Fields& fields, Index c) {
   return mixture;
 }
 
-/// The smallest of this rank's block, the cells of bed in it, and those of them below 1.
+/// The smallest value in this rank's block, its cells of bed, and those of them below 1.
 struct Block {
   WellPosedness nearest;
   double cells = 0, below = 0;

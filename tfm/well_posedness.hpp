@@ -1,4 +1,4 @@
-// How far the state is from where the averaged equations lose their real characteristics, over the whole column.
+// Distance of the state from ill-posedness, where the averaged equations lose their real characteristics.
 #pragma once
 
 #include <array>
@@ -10,17 +10,17 @@
 
 namespace polybed::tfm {
 
-/// Fraction of solids from which a cell counts as bed.
+/// Least solids fraction in a cell of bed.
 constexpr double bed_begins = 0.01;
 
-/// The cell of the bed with the smallest G/G_crit of closures::critical_slope, G = dp_s/dphi. Several solids enter as
-/// one of their mean density and of the velocity of their centre of mass. Where cells share the smallest one, as all do
-/// that no stress reaches, it is the one with the greatest G_crit.
+/// The cell of the bed with the smallest G/G_crit of closures::critical_slope, G = dp_s/dphi. Several solids count as
+/// one with their mean density and the velocity of their centre of mass. If cells share the smallest value, as all do
+/// without stress, it is the one with the greatest G_crit.
 struct WellPosedness {
-  double least = std::numeric_limits<double>::infinity();  ///< infinite: nothing slips
+  double least = std::numeric_limits<double>::infinity();  ///< infinite: no slip
   double critical_slope = 0;                               ///< G_crit there, Pa
   std::array<double, 3> place{};                           ///< its centre, m
-  double share_below = 0;                                  ///< of the cells of the bed, those with G < G_crit
+  double share_below = 0;                                  ///< share of the bed's cells with G < G_crit
 
   /// Whether it is nearer to ill-posedness than another, or further beyond.
   [[nodiscard]] bool lacks_more_than(const WellPosedness& other) const {
@@ -28,8 +28,8 @@ struct WellPosedness {
   }
 };
 
-/// Of the block, from fields of a finished evaluation; of the column once a reduction has put the blocks together.
-/// Nothing in form B, whose waves G_crit does not know.
+/// For the block, from fields of a finished evaluation; for the column once a reduction has combined the blocks. Empty
+/// in form B, for which G_crit is not valid.
 class WellPosednessOfBlocks {
  public:
   WellPosednessOfBlocks(const Constants& constants, const Fields& fields);
@@ -37,7 +37,7 @@ class WellPosednessOfBlocks {
   [[nodiscard]] WellPosedness column() const;
 
  private:
-  /// Cells of bed, those of them below 1, then of each rank the smallest of its block: all 0 but this rank's own.
+  /// Cells of bed, those of them below 1, then the smallest value of each rank's block: all 0 except this rank's own.
   std::vector<double> numbers_;
 };
 

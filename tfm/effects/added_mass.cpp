@@ -1,16 +1,16 @@
-// Slot Inertia: fluid that particles drag along, closures/added_mass.hpp.
+// Slot Inertia: added mass, closures/added_mass.hpp.
 //
-//   D_j U_j/Dt = a_j + (C_m rho_f/rho_j)(D_f U_f/Dt - D_j U_j/Dt),   and the opposite on the fluid, over its mass
+//   D_j U_j/Dt = a_j + (C_m rho_f/rho_j)(D_f U_f/Dt - D_j U_j/Dt),   and the opposite for the fluid, over its mass
 //
-// a_j and a_f being what all other forces and the pressure would give each phase alone. With
-// k_j = C_m rho_f/(rho_j + C_m rho_f) the rows of a face are solved by hand:
+// with a_j and a_f the accelerations of each phase alone from all other forces and the pressure. With k_j = C_m
+// rho_f/(rho_j + C_m rho_f) the rows of a face have a closed solution:
 //
 //   D_f U_f/Dt = (eps rho_f a_f + sum_j phi_j k_j rho_j a_j) / M,   M = eps rho_f + sum_j phi_j k_j rho_j
 //   D_j U_j/Dt = (1 - k_j) a_j + k_j D_f U_f/Dt
 //
 // The same for a unit gradient of the pressure: r_f = (s_f + sum_j phi_j k_j s_j)/M and r_j = (1 - k_j) s_j/rho_j +
 // k_j r_f take the place of 1/rho_f and 1/rho_j in (2) and in B = eps r_f + sum_j phi_j r_j; s_j = 1 and s_f = eps in
-// form A, 0 and 1 in form B. Taken from an earlier time, D_j U_j/Dt would grow where C_m rho_f exceeds rho_j.
+// form A, 0 and 1 in form B. A D_j U_j/Dt from an earlier time would grow where C_m rho_f exceeds rho_j.
 #include "closures/added_mass.hpp"
 
 #include <algorithm>
@@ -58,7 +58,7 @@ void share_loops(const Density& density, const Constants& constants, const fluid
     }
 }
 
-/// The rows of each face solved: for the forces, and for a unit gradient of the pressure.
+/// Solves the rows of each face: for the forces, and for a unit gradient of the pressure.
 template <class Density>
 void couple_loops(const Density& density, const Constants& constants, const fluid::Boundaries& boundaries,
                   Fields& fields) {
@@ -71,7 +71,7 @@ void couple_loops(const Density& density, const Constants& constants, const flui
     const double* convected = fields.inertia.convection[n][a].data();
     double *fluid = fields.fluid_acceleration[a].data(), *to_fluid = fields.inertia.fluid_response[a].data();
     core::for_each_row(constants.grid, boundaries.moving_faces(axis, false), [&](Index begin, Index end) {
-    // First the sums: the momentum that forces give to the fluid and what moves with it, and how it is pressed.
+    // First the sums: the momentum of the fluid and its added mass, and their response to the pressure.
 #pragma GCC ivdep
       for (Index c = begin; c < end; ++c) {
         const double voidage = std::max(face_mean(eps, c, s), fluid::voidage_floor);
@@ -133,7 +133,7 @@ void mobility_loops(const Constants& constants, const fluid::Boundaries& boundar
   }
 }
 
-/// Where the solids are held, and on faces through which they are fed, the fluid moves without added mass.
+/// Where the solids are held, and on faces through which they are fed, the fluid has no added mass.
 template <class Coefficient>
 class AddedMass final : public InertiaEffect {
  public:

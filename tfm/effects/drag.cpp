@@ -1,4 +1,4 @@
-// Slot Exchange, fluid with solids: the drag on every species, by any law of the menu, one closure pass per cell.
+// Slot Exchange, fluid with solids: drag on every species from any law in the menu, one closure pass per cell.
 #include "relevance/effects/drag.hpp"
 
 #include <algorithm>
@@ -19,12 +19,12 @@ namespace {
 
 using core::Index;
 
-/// b_j = 18 mu eps f_j / D_j^2, T(1.49), with f_j from the polydisperse law at the cell's voidage,
-/// composition and the superficial slip of species j. In form B the net force stands in its place, with the pressure
-/// gradient of a uniform bed: b_j + sum_k phi_k b_k/eps, for one species b/eps.
+/// b_j = 18 mu eps f_j / D_j^2, T(1.49), with f_j from the polydisperse law at the cell's voidage, composition and the
+/// superficial slip of species j. Form B uses the net force instead, with the pressure gradient of a uniform bed: b_j +
+/// sum_k phi_k b_k/eps, for one species b/eps.
 class Drag : public FluidExchange {
  public:
-  /// \param divisors  of the drag on each species by the slip of a gas; 1 without it
+  /// \param divisors  of the drag on each species through gas slip; 1 without slip
   Drag(const Constants& constants, const fluid::Boundaries& boundaries, const std::string& name,
        const closures::DragLaw& law, std::vector<double> divisors)
       : constants_(constants), boundaries_(boundaries), name_(name), law_(law), divisors_(std::move(divisors)) {

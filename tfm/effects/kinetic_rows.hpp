@@ -1,4 +1,4 @@
-// What collisions do in a row of cells: the loops of the kinetic stress, kernels of core::in_vectors.
+// Collisions in a row of cells: the loops of the kinetic stress, kernels of core::in_vectors.
 #pragma once
 
 #include <algorithm>
@@ -12,37 +12,37 @@
 
 namespace polybed::tfm {
 
-/// One species as collisions see it.
+/// Properties of one species in collisions.
 struct Grain {
   double density, diameter, restitution;
 };
 
-/// Cells that are worked on together: few enough that their rows stay in the processor's first cache.
+/// Cells computed together: few enough that their rows stay in the first-level cache.
 struct KineticRows {
   static constexpr std::size_t most = 128;
   using Row = std::array<double, most>;
   std::size_t cells;
-  /// Of the solids: max(phi, 0); at least the floor of collisions; 1 down to that floor, then falling to 0 with phi.
+  /// For the solids: max(phi, 0); at least the floor of collisions; 1 down to that floor, then falling to 0 with phi.
   Row solids, phi, fade;
-  Row growth;              ///< phi g0'/g0 of one size
-  Row dense;               ///< what g0 of a mixture is multiplied by, 1 unless dense
+  Row growth;              ///< phi g0'/g0 for one size
+  Row dense;               ///< factor of g0 in a mixture, 1 unless dense
   Row surface;             ///< sum_k phi_k/D_k, 1/m
   Row divergence, strain;  ///< of the motion of all solids, 1/s, 1/s2
-  /// What a measured stress is to kinetic theory, and the slope of the first with phi: 1, 0, 1, 1 without a table.
+  /// Measured stress over kinetic theory, and the slope of the first ratio in phi: 1, 0, 1, 1 without a table.
   Row pressure_ratio, pressure_ratio_slope, viscosity_ratio, loss_ratio;
 
-  /// Of one species.
+  /// For one species.
   Row g0, collisions;                        ///< sum_k x_k g_jk; sum_k h_jk
   Row viscosity;                             ///< mu_j/(phi s), kg/m2, s = sqrt theta
-  Row compression, shear, loss, drag, slip;  ///< of theta, s, s^3, theta, 1/s in the balance of energy, W/m3
+  Row compression, shear, loss, drag, slip;  ///< factors of theta, s, s^3, theta, 1/s in the energy balance, W/m3
   Row speed;                                 ///< s, m/s
-  Row speed_fall;                            ///< -ds/dcompression, m4 s/kg; 0 where theta is an unknown
+  Row speed_fall;                            ///< -ds/dcompression, m4 s/kg; 0 if theta is an unknown
 };
 
-/// Least solids fraction at which collisions are evaluated: the mean free path is 12 diameters there, and what it makes
-/// of shear and compression would grow as 1/phi^2. Below, all that collisions do fades with phi, so that a cell
-/// without solids has the temperature that slip and drag give a lone grain: the stress and its work on the temperature
-/// alike, or thin solids that fly apart would be driven by what they do not lose.
+/// Least solids fraction at which collisions are evaluated: the mean free path is 12 diameters there, and its effect on
+/// shear and compression would grow as 1/phi^2. Below it all effects of collisions fade with phi, so that slip and drag
+/// alone set the temperature in an empty cell. The stress and its work fade alike; otherwise dilute solids that fly
+/// apart would gain energy that they do not lose.
 inline constexpr double collision_fraction_floor = 0.01;
 
 /// Sets the rows of the solids, and clears those that are sums. \param dense  g0 above freezing is Torquato's
@@ -71,7 +71,7 @@ inline void add_surface(KineticRows& rows, const double* share, double diameter)
   for (std::size_t c = 0; c < rows.cells; ++c) rows.surface[c] += share[c] * rows.phi[c] * per_diameter;
 }
 
-/// U of all solids, by volume, on faces: adds a species' part, phi_j U_j; `end_flow` divides by phi.
+/// Adds a species' part, phi_j U_j, to U of all solids, by volume, on faces; `end_flow` divides by phi.
 inline void add_flow(const double* fraction, const double* velocity, std::ptrdiff_t stride, std::size_t faces,
                      double* flow) {
   const double* below = fraction - stride;
@@ -95,7 +95,7 @@ inline void add_strain(KineticRows& rows, const double* share, const double* str
   for (std::size_t c = 0; c < rows.cells; ++c) rows.strain[c] += share[c] * strain[c];
 }
 
-/// Adds to g0 and collisions of a species what its neighbours of another do, or of its own.
+/// Adds the contribution of another species, or its own, to g0 and collisions of a species.
 /// \param share  x_k of the neighbours
 inline void add_neighbours(KineticRows& rows, const double* share, const Grain& grain, const Grain& neighbour) {
   const double d = grain.diameter, reach = neighbour.diameter;
@@ -114,7 +114,7 @@ struct SlipRows {
   double viscosity;
 };
 
-/// Sets the factors of the balance of fluctuation energy of a species, from g0 and collisions.
+/// Sets the coefficients in a species' balance of fluctuation energy, from g0 and collisions.
 inline void set_balance(KineticRows& rows, closures::KineticModel model, const Grain& grain, const SlipRows& fluid) {
   const double rho = grain.density, d = grain.diameter, e = grain.restitution;
   for (std::size_t c = 0; c < rows.cells; ++c) {
@@ -130,7 +130,7 @@ inline void set_balance(KineticRows& rows, closures::KineticModel model, const G
   }
 }
 
-/// The speed from the local balance, and the temperature that it means.
+/// Computes the speed from the local balance, and the corresponding temperature.
 inline void balance_speed(KineticRows& rows, double* temperature) {
   for (std::size_t c = 0; c < rows.cells; ++c) {
     const double s =
@@ -141,7 +141,7 @@ inline void balance_speed(KineticRows& rows, double* temperature) {
   }
 }
 
-/// The speed of a temperature that is an unknown.
+/// The speed for a temperature that is an unknown.
 inline void take_speed(KineticRows& rows, const double* temperature) {
   for (std::size_t c = 0; c < rows.cells; ++c) {
     rows.speed[c] = std::sqrt(std::max(temperature[c], 0.0));
@@ -149,15 +149,15 @@ inline void take_speed(KineticRows& rows, const double* temperature) {
   }
 }
 
-/// What the equation of the granular temperature takes from collisions.
+/// Input from collisions to the equation of the granular temperature.
 struct TemperatureRows {
   const double* temperature;
   double *rate, *conductivity, *decay;
-  double least_agitation;      ///< m/s, rounds off the slip production at 0
+  double least_agitation;      ///< m/s, regularises the slip production at 0
   double conduction_diagonal;  ///< 1/m2
 };
 
-/// Local part of dtheta/dt, the conductivity, and how fast a disturbance of theta decays.
+/// Local part of dtheta/dt, the conductivity, and the decay rate of a disturbance of theta.
 inline void set_temperature_rate(const KineticRows& rows, const Grain& grain, const TemperatureRows& out) {
   const double per_energy = 2 / (3 * grain.density), least2 = out.least_agitation * out.least_agitation;
   const double mass = grain.density * grain.diameter, diagonal = out.conduction_diagonal, e = grain.restitution;
@@ -174,12 +174,12 @@ inline void set_temperature_rate(const KineticRows& rows, const Grain& grain, co
   }
 }
 
-/// Where a species' stress is added.
+/// Sums of the species' stresses.
 struct StressRows {
   double *pressure, *slope, *damping, *viscosity;
 };
 
-/// Adds a species to pressure, its slope, its answer to compression by way of theta, and viscosity of the solids.
+/// Adds a species to pressure, its slope, its response to compression through theta, and viscosity of the solids.
 inline void add_stress(const KineticRows& rows, const double* share, double density, const StressRows& to) {
   for (std::size_t c = 0; c < rows.cells; ++c) {
     const double one = 1 + rows.collisions[c], rise = 1 + rows.collisions[c] * (2 + rows.growth[c]);

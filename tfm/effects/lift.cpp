@@ -1,8 +1,8 @@
-// Slot Force: lift of spheres in a sheared fluid, closures/lift_saffman_mei.hpp.
+// Slot Force: lift on spheres in a sheared fluid, closures/lift_saffman_mei.hpp.
 //
-// It is found on the faces. The vorticity of a face is the mean of those on its edges, each from the four velocities
-// around the edge: differences across one cell see streams that alternate from cell to cell and have the right sign
-// beside walls, where those across two cells do not, and would part the columns of cells.
+// The lift is computed on the faces. The vorticity on a face is the mean over its edges, each from the four velocities
+// around the edge. Such differences across one cell see streams that alternate from cell to cell and have the right
+// sign next to walls. Differences across two cells do not, and would separate the columns of cells.
 #include "relevance/effects/lift.hpp"
 
 #include <algorithm>
@@ -21,7 +21,7 @@ using core::face_mean;
 using core::Index;
 
 /// A component of U_f - U_j on the faces of another axis, m/s: from the fluxes through the four faces around it, at the
-/// voidage of the face, which a surface beside it changes less.
+/// voidage of the face, which a nearby surface changes less.
 struct SlipAcross {
   const double *eps, *u, *v;
   Index across, along;  ///< strides of the face's axis and of the component's
@@ -32,7 +32,7 @@ struct SlipAcross {
   }
 };
 
-/// A component of curl U_f on the edges along its axis, 1/s: that of index c is the low one of cell c.
+/// A component of curl U_f on the edges along its axis, 1/s: index c is the low edge of cell c.
 struct EdgeVorticity {
   const double *u_p, *u_q;
   Index p, q;  ///< strides of the two other axes, in cyclic order
@@ -41,7 +41,7 @@ struct EdgeVorticity {
   [[nodiscard]] double mean(Index c, Index s) const { return 0.5 * (at(c) + at(c + s)); }
 };
 
-/// The axes of a face in cyclic order, its own first; in 2-D one of them is not active.
+/// The axes of a face in cyclic order, starting with its own; in 2-D one of them is inactive.
 struct Axes {
   int a, b, d;
   explicit Axes(int axis) : a(axis), b((axis + 1) % 3), d((axis + 2) % 3) {}
@@ -113,9 +113,9 @@ void lift_loops(const Density& density, const Constants& constants, const fluid:
   }
 }
 
-/// Saffman's lift with the share of Mei on each species: that of one sphere, at any voidage, with the local density of
-/// a compressible fluid. Below the shear that the share is known from it is linear in the vorticity: through the slope
-/// of a root round-off would grow into streams where the flow is even or symmetric.
+/// Saffman's lift with Mei's share on each species: as for one sphere, at any voidage, with the local density of a
+/// compressible fluid. Below the least shear in the fit of the share it is linear in the vorticity: the slope of a root
+/// would amplify round-off into streams where the flow is uniform or symmetric.
 class Lift final : public ForceEffect {
  public:
   Lift(const Constants& constants, const fluid::Boundaries& boundaries)
@@ -135,7 +135,7 @@ class Lift final : public ForceEffect {
   const fluid::Boundaries& boundaries_;
 };
 
-/// One cell across has no vorticity: nothing is made.
+/// A column of one cell across has no vorticity: creates nothing.
 void make_lift(const Making& m) {
   const core::Grid& grid = m.constants.grid;
   if (grid.column_cells(0) == 1 && (grid.dimensions < 3 || grid.column_cells(2) == 1)) return;

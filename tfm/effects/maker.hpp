@@ -1,4 +1,4 @@
-// Who makes the effects of the continuum model, and the list of them. What a scene does not call for is not made.
+// Makers of the effects in the continuum model, and their list. Effects that a scene does not need are not created.
 #pragma once
 
 #include <string>
@@ -11,17 +11,17 @@
 
 namespace polybed::tfm {
 
-/// What a maker has at hand. It puts what it makes into `effects`, and what that owns into `fields`.
+/// Input of a maker. It puts its effect into `effects`, and the fields that this owns into `fields`.
 struct Making {
   const core::Scene& scene;
   const Constants& constants;
   const fluid::Boundaries& boundaries;
   const std::string& law;
   Fields& fields;
-  Effects& effects;  ///< those before it in the list are made
+  Effects& effects;  ///< earlier ones in the list already exist
 };
 
-/// An effect of this model. Without a maker it acts within another's.
+/// An effect of this model. Without a maker another effect includes it.
 struct Maker {
   const relevance::Effect* effect;
   std::string slot;

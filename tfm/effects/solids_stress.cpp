@@ -1,4 +1,4 @@
-// Makes the stress of the solids: friction, and what collisions add to it.
+// Creates the stress of the solids: friction, plus collisions.
 #include "relevance/effects/solids_stress.hpp"
 
 #include <algorithm>
@@ -26,20 +26,20 @@ namespace {
 
 using core::Index;
 
-/// 1/s, that rounds the shear rate off at 0.
+/// 1/s, regularises the shear rate at 0.
 constexpr double least_shear_rate = 0.01;
-/// Solids fraction below which the viscosity over phi is that at it: V falls as phi^2, and a stress of so thin solids
-/// is none.
+/// Solids fraction below which the viscosity over phi is constant: V falls as phi^2, and so dilute solids have no
+/// stress.
 constexpr double fraction_floor = 1e-3;
 
-/// What a liquid's drag and films add to the stress of sheared solids, as boxes of particles measured it.
-/// p = mu_f gamma (1 + lambda St) V(phi) R_p, mu_s = mu_f (1 + lambda St) V(phi) R_mu, closures/stress_ratios.hpp, with
-/// St = rho d^2 gamma/mu_f of the cell's Sauter diameter and mean density. It needs no granular temperature. gamma is
-/// sqrt(2 D':D' + g^2) - g with g = 0.01 1/s, D' the mean over the solids: 0 at rest, and smooth there. Beyond the
-/// table the ratios of its edge are held, which is counted where there are solids.
+/// Stress of sheared solids from a liquid's drag and films, as measured in boxes of particles. p = mu_f gamma (1 +
+/// lambda St) V(phi) R_p, mu_s = mu_f (1 + lambda St) V(phi) R_mu, closures/stress_ratios.hpp, with St = rho d^2
+/// gamma/mu_f from the cell's Sauter diameter and mean density. Needs no granular temperature. gamma is sqrt(2 D':D' +
+/// g^2) - g with g = 0.01 1/s, D' the mean over the solids: 0 and smooth at rest. Outside the table the ratios of its
+/// edge are used, which is counted where there are solids.
 class WetStress : public CollisionalStress {
  public:
-  /// \param jammed  phi_m of V  \param lambda  of the table
+  /// \param jammed  phi_m in V  \param lambda  from the table
   WetStress(const Constants& constants, const fluid::Boundaries& boundaries, closures::StressRatios ratios,
             double jammed, double lambda, const std::string& name, Fields& fields)
       : constants_(constants),
@@ -91,7 +91,7 @@ namespace makers {
 
 namespace {
 
-/// The stress of a table: friction, a fluidised bed's pressure if the file has it, and that of sheared particles.
+/// Creates the stress from a table: friction, a fluidised bed's pressure if the file has it, and sheared particles.
 void make_table_stress(const Making& m, const std::string& file) {
   const auto& [scene, constants, boundaries, law, fields, effects] = m;
   const core::BoxRegime regime = regime_of_table(file);

@@ -69,7 +69,7 @@ double FrictionalStress::packing_above(const Fields& fields) const {
 
 double FrictionalStress::pressure_at(double solids_fraction) const { return law_(solids_fraction).pressure; }
 
-/// What the law alone does not carry is held.
+/// The surface row supports the part that the law alone does not.
 double FrictionalStress::pressure_on_top(double solids_fraction, double half_weight) const {
   return std::max(pressure_at(solids_fraction), half_weight);
 }
@@ -79,7 +79,7 @@ double FrictionalStress::solids_fraction_at(double pressure) const { return law_
 void FrictionalStress::evaluate(Fields& fields) {
   const double* phi = fields.solids_fraction.data();
   double *pressure = fields.stress.pressure.data(), *slope = fields.stress.slope.data();
-  core::Box cells = boundaries_.solids_cells();  // and, for charge_upwind_work(), ghosts before neighbours send theirs
+  core::Box cells = boundaries_.solids_cells();  // and ghosts for charge_upwind_work(), before neighbours send theirs
   for (int axis = 0; axis < constants_.grid.dimensions; ++axis) {
     if (lies_towards_[std::size_t(axis)] == 0) continue;
     cells.lo[std::size_t(axis)] -= constants_.grid.ghosts(axis);
@@ -100,7 +100,7 @@ void FrictionalStress::evaluate(Fields& fields) {
   if (bulk_viscosity_ > 0)
     add_bulk_viscosity(fields);
   else
-    std::fill(fields.stress.damping.begin(), fields.stress.damping.end(), 0.0);  // to which collisions add
+    std::fill(fields.stress.damping.begin(), fields.stress.damping.end(), 0.0);  // collisions add to it
   boundaries_.fill_cells(fields.stress.pressure);
 }
 
@@ -108,7 +108,7 @@ void FrictionalStress::charge_upwind_work(int axis, Fields& fields) const {
   const auto a = std::size_t(axis);
   const core::Grid& grid = constants_.grid;
   const Index s = grid.stride(axis);
-  const bool down = lies_towards_[a] > 0;  // towards higher cells, as gravity says
+  const bool down = lies_towards_[a] > 0;  // towards higher cells, along gravity
   const Index under = down ? 0 : -s, above = down ? -s : 0, below = under + (down ? s : -s);
   const double *phi = fields.solids_fraction.data(), *pressure = fields.stress.pressure.data();
   const double density = mean_density(constants_);
@@ -137,7 +137,7 @@ void FrictionalStress::charge_upwind_work(int axis, Fields& fields) const {
 }
 
 void FrictionalStress::hold_surface(Fields& fields) const {
-  constexpr double dust = 0.02;  // solids fraction on the surface row; where more lies there, the bed still settles
+  constexpr double dust = 0.02;  // solids fraction in the surface row; above it the bed is still settling
   const core::Grid& grid = constants_.grid;
   const double* phi = fields.solids_fraction.data();
   double *pressure = fields.stress.pressure.data(), *slope = fields.stress.slope.data();
@@ -159,7 +159,7 @@ void FrictionalStress::hold_surface(Fields& fields) const {
         const double held =
             on_held ? std::max(1 - phi[c] / dust, 0.0) * phi[c] / (std::abs(phi[c]) + stress_fraction_floor) : 1;
         pressure[c] = std::max(pressure[c], held * load * phi[c] / whole);
-        // Without the derivative of the fade at `dust`: the slope serves the damping and the preconditioner alone.
+        // Neglects the derivative of the fade at `dust`: only the damping and the preconditioner use the slope.
         slope[c] = std::max(slope[c], held * (2 - held) * load * between / (whole * whole));
       }
     });

@@ -1,4 +1,4 @@
-// Slot Stress: the frictional pressure of packed solids with a bulk viscosity that damps its elastic waves.
+// Slot Stress: the frictional pressure of packed solids, with a bulk viscosity that damps elastic waves.
 #pragma once
 
 #include <algorithm>
@@ -11,22 +11,22 @@
 
 namespace polybed::tfm {
 
-/// p_s = p_f(phi) - lambda sum_j phi_j div U_j, lambda = alpha rho_s c_s h, c_s = sqrt(p_f'/rho_s), rho_s the
-/// mean density of the cell's solids, h the smallest cell width. alpha = 0 leaves the second term out.
+/// p_s = p_f(phi) - lambda sum_j phi_j div U_j, lambda = alpha rho_s c_s h, c_s = sqrt(p_f'/rho_s), rho_s the mean
+/// density of the cell's solids, h the smallest cell width. alpha = 0 omits the second term.
 ///
-/// A cell S filled in part that lies on packed solids K: its p_s is at least p_f(phi_K) phi_S/(phi_K + 2 phi_S), the
-/// pressure at which both of its faces rest: K carries (phi_K/2 + phi_S) and S phi_S/2 of the weight of a full cell.
-/// p_f(phi_S) alone is 0 below the onset, and the upper half of S would fall for ever.
+/// In a partly filled cell S on packed solids K, p_s is at least p_f(phi_K) phi_S/(phi_K + 2 phi_S), at which both of
+/// its faces rest: K carries (phi_K/2 + phi_S) and S phi_S/2 of the weight of a full cell. p_f(phi_S) alone is 0 below
+/// the onset, and the upper half of S would fall for ever.
 ///
-/// Gravity acts on the mean fraction of a face, while an upwind flux carries the fraction of the cell it leaves. Where
-/// the cell below is the fuller one, solids that rise gain (phi_K - phi_S)/2 more potential energy than gravity takes,
-/// and solids that fall release as much less than it gives. On packed solids this difference fed a motion without end.
-/// It is charged to the motion: a jump of pressure across the face, rho' g h (phi_K - phi_S)/2 U/(|U| + U_0), that
-/// opposes the mean velocity U of the solids, as far as K carries half a packed cell and S is looser than the onset.
-/// U_0 = g' h/c, c the speed of elastic waves at the bottom, so that it relaxes no faster than these waves.
+/// Gravity acts on the mean fraction of a face, while an upwind flux carries the fraction of the cell it leaves. If the
+/// lower cell is fuller, rising solids gain (phi_K - phi_S)/2 more potential energy than gravity takes, and falling
+/// solids release the same amount less than it gives. On packed solids this difference sustained an endless motion. A
+/// pressure jump across the face, rho' g h (phi_K - phi_S)/2 U/(|U| + U_0), takes that energy from the motion. It
+/// opposes the mean velocity U of the solids and acts as far as K carries half a packed cell and S is looser than the
+/// onset. U_0 = g' h/c, c the speed of elastic waves at the bottom, so that it relaxes no faster than these waves.
 class FrictionalStress : public StressEffect {
  public:
-  /// \param alone  no other pressure of the solids is added, which would press at the surface too
+  /// \param alone  the solids have no other pressure, which would also act at the surface
   FrictionalStress(const core::Scene& scene, const Constants& constants, const fluid::Boundaries& boundaries,
                    Fields& fields, bool alone = true);
   void evaluate(Fields& fields) override;
@@ -39,10 +39,10 @@ class FrictionalStress : public StressEffect {
 
  private:
   void charge_upwind_work(int axis, Fields& fields) const;
-  /// Gives the loose row on packed solids, and what lies on it in the next, the pressure that carries it: the share of
-  /// the packed row's load that its upper half is of all from the packed row's middle up. By the law alone it has none,
-  /// and its upper half, on the face above, falls for ever and drags the fluid along. In the second row only
-  /// dust is held, and less the thinner it is: noise in a cell without solids has no stiffness.
+  /// Sets the supporting pressure in the loose row on packed solids and in the row above it: the packed row's load
+  /// times the row's upper half over all solids from the packed row's middle up. The law alone gives none, and the
+  /// upper half, on the face above, falls for ever and drags the fluid along. In the second row only dust is supported,
+  /// the less the thinner it is: noise in a cell without solids has no stiffness.
   void hold_surface(Fields& fields) const;
   void add_bulk_viscosity(Fields& fields) const;
   template <class Metric>
@@ -52,18 +52,18 @@ class FrictionalStress : public StressEffect {
 
   const Constants& constants_;
   const fluid::Boundaries& boundaries_;
-  closures::FrictionalLaw law_;               ///< its maximum packing is that of the whole bed's composition
-  closures::MixturePacking mixture_packing_;  ///< of a cell's composition; null: one for all cells
+  closures::FrictionalLaw law_;               ///< its maximum packing is for the whole bed's composition
+  closures::MixturePacking mixture_packing_;  ///< for a cell's composition; null: one for all cells
   std::vector<double> species_packing_;
   double bulk_viscosity_, cell_width_;
-  double wave_speed_ = 0;  ///< of elastic waves at the bottom of the settled bed, m/s; 0 where no surface is held
-  std::array<double, 3> lies_towards_{};  ///< unit vector of the weight less buoyancy; 0 where no surface is held
+  double wave_speed_ = 0;  ///< elastic waves at the bottom of the settled bed, m/s; 0 without support at the surface
+  std::array<double, 3> lies_towards_{};  ///< unit vector of the buoyant weight; 0 without support at the surface
 };
 
-/// How strongly elastic waves of a packed bed are damped: alpha of the bulk viscosity alpha rho_s c_s h, dimensionless:
-/// as the case says, or 1 over the number of directions with more than one cell. It acts in all directions at once, so
-/// that an explicit step may take some h/(2 d alpha c_s) in d of them: with alpha = 1 in two dimensions nothing else
-/// bound the steps of a packed bed (docs/record/cost.md).
+/// Damping of elastic waves in a packed bed: alpha in the bulk viscosity alpha rho_s c_s h, dimensionless, from the
+/// case, or 1 over the number of directions with more than one cell. It acts in all directions at once, so that an
+/// explicit step is limited to about h/(2 d alpha c_s) in d of them: with alpha = 1 in two dimensions nothing else
+/// limited the steps of a packed bed (docs/record/cost.md).
 [[nodiscard]] inline double bulk_viscosity_of(const core::Scene& scene, const core::Grid& grid) {
   int directions = 0;
   for (int axis = 0; axis < grid.dimensions; ++axis) directions += grid.column_cells(axis) > 1 ? 1 : 0;

@@ -17,10 +17,10 @@ using core::Index;
 
 namespace {
 
-/// sqrt(theta) that rounds off the slip production at 0, over that of neighbours in the least shear: 0.1 mm/s for 1 mm
-/// at 1 1/s.
+/// sqrt(theta) that regularises the slip production at 0, over the agitation of neighbours in the least shear: 0.1 mm/s
+/// for 1 mm at 1 1/s.
 constexpr double least_agitation = 0.1;
-constexpr double wall_restitution = 0.9;  ///< e_w of collisions with Johnson and Jackson's wall
+constexpr double wall_restitution = 0.9;  ///< e_w for collisions with Johnson and Jackson's wall
 
 }  // namespace
 
@@ -70,7 +70,7 @@ void KineticStress::add(Fields& fields) {
   if (transported_ && !fields.stress.wall.empty()) add_wall_energy(fields);
 }
 
-/// Temperatures of some cells, and what they add to pressure, viscosity and the friction of walls.
+/// Computes temperatures in some cells, and adds to pressure, viscosity and wall friction.
 void KineticStress::add_row(Fields& fields, Index begin) {
   core::in_vectors<begin_rows>(rows_, &fields.solids_fraction[std::size_t(begin)], dense_);
   set_motion(fields, begin);
@@ -81,9 +81,9 @@ void KineticStress::add_row(Fields& fields, Index begin) {
   for (std::size_t j = 0; j < constants_.species(); ++j) add_species(fields, j, begin);
 }
 
-/// What the solids' pressure works against and what their viscosity is sheared by. Both act on all species, shared by
-/// volume, so the work of one species' part is done on the motion of all: otherwise species that move apart would make
-/// energy. The divergence is that of the faces' sum of phi_j U_j over phi, as the pressure's gradient is divided.
+/// Computes the motion that the solids' pressure and viscosity work on. Both act on all species, shared by volume, so
+/// the work uses the mean motion of all: otherwise species that move apart would generate energy. The divergence uses
+/// sum phi_j U_j over phi on faces, with the same divisor as the pressure's gradient.
 void KineticStress::set_motion(const Fields& fields, Index begin) {
   const core::Grid& grid = constants_.grid;
   std::array<double, KineticRows::most + 1> low, high;
@@ -91,7 +91,7 @@ void KineticStress::set_motion(const Fields& fields, Index begin) {
     for (std::size_t f = 0; grid.metric && f < faces; ++f) flow[f] *= grid.metric->open[axis][std::size_t(from) + f];
   };
   for (std::size_t axis = 0; axis < std::size_t(grid.dimensions); ++axis) {
-    if (axis == 0) {  // a cell's high face is its neighbour's low one
+    if (axis == 0) {  // a cell's high face is the next cell's low one
       flow_on_faces(fields, axis, begin, rows_.cells + 1, low.data());
       open(axis, begin, rows_.cells + 1, low.data());
       core::in_vectors<add_divergence>(rows_, low.data(), low.data() + 1, grid.spacing[axis]);
@@ -121,7 +121,7 @@ void KineticStress::flow_on_faces(const Fields& fields, std::size_t axis, Index 
   core::in_vectors<end_flow>(fields.solids_fraction.data() + begin, s, faces, flow);
 }
 
-/// Of a stress that was measured.
+/// Sets the ratios of a measured stress.
 void KineticStress::set_ratios() {
   for (std::size_t c = 0; c < rows_.cells; ++c) {
     const closures::RatioValues ratio = (*ratios_)(rows_.phi[c], 0);
@@ -134,7 +134,7 @@ void KineticStress::set_ratios() {
   use_->evaluations += rows_.cells;
 }
 
-/// g0_j and sum_k h_jk of a species, the composition that of the cells.
+/// Computes g0_j and sum_k h_jk for a species, with the composition of the cells.
 void KineticStress::collide(const Fields& fields, std::size_t species, Index begin) {
   std::fill_n(rows_.g0.begin(), rows_.cells, 0.0);
   std::fill_n(rows_.collisions.begin(), rows_.cells, 0.0);
@@ -169,7 +169,7 @@ void KineticStress::add_species(Fields& fields, std::size_t species, Index begin
                                                                         grain.density, 1, rows_.g0[c], max_packing_);
 }
 
-/// Johnson and Jackson's exchange of fluctuation energy with walls, in the cells that touch them.
+/// Johnson and Jackson's exchange of fluctuation energy with walls, in the cells next to them.
 void KineticStress::add_wall_energy(Fields& fields) {
   const core::Grid& grid = constants_.grid;
   for (int wall = 0; wall < grid.dimensions; ++wall)
@@ -195,7 +195,7 @@ void KineticStress::add_wall_energy(Fields& fields) {
     }
 }
 
-/// Energy that a wall gives to a species in a cell, over phi_j rho_j, m3/s3.
+/// Energy from a wall to a species in a cell, over phi_j rho_j, m3/s3.
 double KineticStress::wall_gain(const Fields& fields, int wall, std::size_t species, Index cell) const {
   double speed2 = 0;
   for (int axis = 0; axis < constants_.grid.dimensions; ++axis) {

@@ -1,4 +1,4 @@
-// Slot Stress: the pressure of a fluidised bed as a table says, over the frictional pressure of a packed one.
+// Slot Stress: the pressure of a fluidised bed from a table, added to the frictional pressure of a packed one.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@
 namespace polybed::tfm {
 
 /// p_s = p_f(phi) + p_bed(phi) sum_j x_j |rho_j - rho_f| g D_j, p_bed from a file of regime "bed". Beyond the last knot
-/// p_bed is held, which is counted.
+/// p_bed is constant, which is counted.
 class TableStress : public StressEffect {
  public:
   /// \param pressure  p_bed  \param name  of its file
@@ -32,17 +32,17 @@ class TableStress : public StressEffect {
   FrictionalStress frictional_;
   closures::MonotoneCurve bed_pressure_;
   std::vector<double> unit_;  ///< |rho_j - rho_f| g D_j, Pa
-  double bed_unit_ = 0;       ///< of the whole bed's composition
+  double bed_unit_ = 0;       ///< for the whole bed's composition
   ClosureUse use_;
 };
 
-/// p_bed(phi) as a curve: an empty bed has no pressure, so one that begins above phi = 0 gets that knot. Throws
-/// core::CaseError if it does not rise. \param name  of its file
+/// p_bed(phi) as a curve. An empty bed has no pressure: a curve that begins above phi = 0 gets that knot. Throws
+/// core::CaseError if it does not increase. \param name  of its file
 [[nodiscard]] closures::MonotoneCurve bed_curve(const BedPressure& bed, const std::string& file);
 
 /// Reads p_bed(phi) from a file of type "polybed solids table", version 1, attribute regime = "bed", datasets `phi` and
 /// `p_bed` (in units of (rho_p - rho_f) g D). An empty bed has no pressure: a table that begins above phi = 0 gets that
-/// knot. Throws core::FileError if the file is another, core::CaseError if p_bed does not rise with phi.
+/// knot. Throws core::FileError for another type of file, core::CaseError if p_bed does not increase with phi.
 [[nodiscard]] closures::MonotoneCurve read_bed_pressure(const std::string& file);
 
 }  // namespace polybed::tfm

@@ -1,4 +1,4 @@
-// Slot Stress: shear viscosity of packed solids from their frictional pressure, by Schaeffer or by mu(I).
+// Slot Stress: shear viscosity of packed solids from their frictional pressure, Schaeffer's or mu(I).
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -15,9 +15,9 @@ namespace {
 
 using core::Index;
 
-constexpr double friction_angle = 28.5;  ///< delta of Schaeffer's viscosity, degrees: glass beads
+constexpr double friction_angle = 28.5;  ///< delta in Schaeffer's viscosity, degrees: glass beads
 
-/// mu_s from p_f of the cell, the mean diameter and density of its solids, and |gamma|^2 = sum_j x_j 2 D'_j:D'_j.
+/// mu_s from p_f in the cell, the mean diameter and density of its solids, and |gamma|^2 = sum_j x_j 2 D'_j:D'_j.
 class FrictionalViscosity : public SolidsViscosity {
  public:
   FrictionalViscosity(const core::Scene& scene, const Constants& constants, const fluid::Boundaries& boundaries,

@@ -16,7 +16,7 @@ using core::face_mean;
 using core::Index;
 
 /// mu_s dU_t/dn = -B U_t with B = pi sqrt(3 theta) s rho phi g0/(6 phi_max) + p_f tan(delta_w)/|U_t|, n outward: sets
-/// the ghosts of the velocities so that the wall's shear stress is that of U_t half way between ghost and cell. The
+/// the ghosts of the velocities so that the wall's shear stress matches U_t half way between ghost and cell. The
 /// collisional part is stress.wall, which is absent without kinetic theory.
 class JohnsonJacksonWall : public SolidsWall {
  public:
@@ -44,7 +44,7 @@ class JohnsonJacksonWall : public SolidsWall {
   }
 
  private:
-  /// The layer of ghosts beyond one wall, of the velocity of one species along one axis.
+  /// Fills the layer of ghosts beyond one wall for the velocity of one species along one axis.
   void fill(Fields& fields, std::size_t species, int along, int wall, int side) const {
     const core::Grid& grid = constants_.grid;
     const auto w = std::size_t(wall), a = std::size_t(along);

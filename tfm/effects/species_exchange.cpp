@@ -23,15 +23,15 @@ namespace {
 
 using core::Index;
 
-/// Collisions of two species as sheared boxes of both have measured them.
-/// K_12 = R(phi) beta_12 + C_s p_f phi_1 phi_2/phi^2, beta_12 of closures/species_exchange_kinetic.hpp at the granular
-/// temperatures and the drift of the cell, R the ratio that a dry table of two species holds, at the restitution,
-/// friction and share of the whole bed. p_f is the pressure of friction alone: collisions are in R. Beyond the table R
-/// of its edge is held. Where both species are present, solids fractions outside the table and drifts, over the root of
-/// the mean temperature, faster than those at which all of it was measured are counted.
+/// Collisions of two species, as measured in sheared boxes with both. K_12 = R(phi) beta_12 + C_s p_f phi_1
+/// phi_2/phi^2, with beta_12 from closures/species_exchange_kinetic.hpp at the cell's granular temperatures and drift,
+/// and R the ratio in a dry table of two species, at the restitution, friction and share of the whole bed. p_f is the
+/// pressure of friction alone: R includes collisions. Outside the table R of its edge is used. Where both species are
+/// present, solids fractions outside the table are counted, and drifts, over the root of the mean temperature, faster
+/// than all of its measurements.
 class TableExchange : public SolidsExchange {
  public:
-  /// Needs a granular temperature, which the stress of the solids has to have made. \param file  of the table
+  /// Needs a granular temperature from the stress of the solids. \param file  of the table
   TableExchange(const core::Scene& scene, const Constants& constants, const fluid::Boundaries& boundaries,
                 const SolidsTable& table, const std::string& file, Fields& fields)
       : constants_(constants),
@@ -127,7 +127,7 @@ class SyamlalExchange : public SolidsExchange {
   }
 
  private:
-  /// What all pairs of a cell have in common.
+  /// Computes the values common to all pairs in a cell.
   static void set_cells(SyamlalExchange& of, const Fields& fields, Index begin, Index end) {
     double *surface = of.surface_.data(), *contact = of.contact_of_cell_.data();
     std::fill(surface + begin, surface + end, 0.0);
@@ -183,7 +183,7 @@ namespace makers {
 
 namespace {
 
-/// A table of what two species exchange.
+/// Reads a table of the exchange between two species.
 SolidsTable exchange_table(const core::Scene& scene, const std::string& file, std::vector<std::string>& warnings) {
   SolidsTable table = read_solids_table(file);
   for (const std::string& line : beyond(table, place_of(scene)))

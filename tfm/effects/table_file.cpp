@@ -18,7 +18,7 @@ bool is_left_open(const core::Scene& scene) {
   return core::law_of(scene, "drag") == core::automatic || scene.bed.volume_share.size() != scene.species.size();
 }
 
-/// A table of sheared particles must be of the scene's regime: the other misses the stress by factors.
+/// Checks that a table of sheared particles is for the scene's regime: the other regime's stress differs by factors.
 std::string wrong_regime(const core::Scene& scene, const std::string& file, core::BoxRegime regime) {
   const Regime here = shear_regime(scene);
   if (here.kind == core::BoxRegime::automatic || here.kind == regime) return "";
@@ -82,7 +82,7 @@ std::string judged(const core::Scene& scene, const std::string& file, Judge&& ju
     return judge(scene, file);
   } catch (const core::CaseError& error) {
     return error.what();
-  } catch (const core::FileError&) {  // told with its own exit code when the model is made
+  } catch (const core::FileError&) {  // reported with its own exit code when the model is created
     return "";
   }
 }
