@@ -4,8 +4,8 @@ namespace polybed::dem {
 
 namespace {
 
-/// Of equal steps in curvature, which changes from end to end of a cone. Within one of them the force of a contact
-/// changes by 1.6 % at most, at the end of a cone that is two particles wide there, by 0.4 % at one of five.
+/// Bands with equal steps in curvature, which changes along a cone. Within one of them the force of a contact changes
+/// by at most 1.6 % at the end of a cone that is two particles wide there, by 0.4 % at five.
 constexpr int bands_of_cone = 16;
 
 /// Whether a point lies on a plate, to rounding.
@@ -16,7 +16,7 @@ bool lies_on(const Plate& plate, const InPlane& point) {
 
 }  // namespace
 
-/// From inside and from outside in turn, band by band from the first edge on.
+/// Curvatures alternate between inside and outside, band by band from the first edge.
 int Plate::curve_at(const Vector& centre) const {
   if (curve_bands == 0) return 0;
   const InPlane point = in_plane(centre);
@@ -31,7 +31,7 @@ Vector Box::wrapped(Vector x) const {
   for (std::size_t k = 0; k < 3; ++k)
     if (periodic[k]) {
       x[k] -= std::floor(x[k] / size[k]) * size[k];
-      if (x[k] >= size[k]) x[k] = 0;  // of a tiny negative number, whose sum with the length is the length
+      if (x[k] >= size[k]) x[k] = 0;  // for a tiny negative number, which plus the length rounds to the length
     }
   return x;
 }
@@ -153,7 +153,7 @@ bool Box::in_line(const Opening& face, const Vector& centre) const {
   });
 }
 
-/// It reaches beyond the corners, so that only the rim of the opening is an edge that particles meet.
+/// It extends beyond the corners, so that particles meet only the rim of the opening as an edge.
 void Box::make_bottom_a_plate() {
   const auto hole = std::find_if(openings.begin(), openings.end(), [](const Opening& o) { return o.is_bottom(); });
   const double rim = hole != openings.end() ? hole->half[0] : 0, beyond = size[0] + size[2];
@@ -164,7 +164,7 @@ void Box::make_bottom_a_plate() {
 
 bool Box::pushes(int plate, const Vector& centre) const {
   const Plate& one = plates[std::size_t(plate)];
-  const InPlane point = one.in_plane(centre);  // of all plates that it joins
+  const InPlane point = one.in_plane(centre);  // the same for all plates that it joins
   const Plate::Part part = one.nearest(point);
   if (part == Plate::Part::face) return true;
   for (const Joint& joint : joints) {

@@ -1,4 +1,4 @@
-// The space of the particles: its size, which faces are walls, and where the images of a particle lie.
+// The space of the particles: its size, its walls, and the positions of a particle's images.
 #pragma once
 
 #include <algorithm>
@@ -19,37 +19,37 @@
 namespace polybed::dem {
 
 /// An opening in a face of the box, or the whole of an open top. The face is a plate without thickness, with a sharp
-/// rim: what has passed it meets it from outside.
+/// rim: particles beyond it meet it from outside.
 struct Opening {
-  int axis = 1, side = 0;   ///< of the face, as of a Wall
+  int axis = 1, side = 0;   ///< of the face, as in Wall
   double place = 0;         ///< of the face, m
-  Vector middle{}, half{};  ///< and half its widths, m; along the axis without meaning; no rim where infinite
-  bool round = false;       ///< a hole in the bottom of the radius half[0]; else a rectangle
+  Vector middle{}, half{};  ///< centre and half widths, m; meaningless along the axis; infinite: no rim
+  bool round = false;       ///< a hole in the bottom with the radius half[0]; else a rectangle
 
   [[nodiscard]] bool is_bottom() const { return axis == 1 && side == 0; }
   [[nodiscard]] bool is_top() const { return axis == 1 && side == 1; }
   [[nodiscard]] bool is_beside(const Opening& other) const { return axis == other.axis && side == other.side; }
-  /// A coordinate along the outward normal, m: of a centre, and of the face.
+  /// A coordinate along the outward normal, m, for a centre or for the face.
   [[nodiscard]] double outward(double along) const { return side == 0 ? -along : along; }
   [[nodiscard]] double outward(const Vector& centre) const { return outward(centre[std::size_t(axis)]); }
-  /// To a centre in line with the opening from the point of the rim that is nearest to it, m, infinite without one;
-  /// nothing: it is not in line.
+  /// Vector to a centre in line with the opening from the nearest point of the rim, m, infinite without one; nothing if
+  /// the centre is not in line.
   [[nodiscard]] std::optional<Vector> from_rim(const Vector& centre) const;
 };
 
 /// A point in the plane of a plate's profile, m: x and y, or distance from the axis and y.
 using InPlane = std::array<double, 2>;
 
-/// A wall inside the box without thickness, that is met from either side and from its edges. It has a straight profile
-/// in a plane: flat ones lie along z from end to end, round ones, which are cones, about an upright axis.
+/// A wall inside the box without thickness, which particles meet from both sides and from its edges. It has a straight
+/// profile in a plane: flat plates lie along z from end to end; round ones are cones about an upright axis.
 struct Plate {
   double x = 0, y = 0;              ///< of one edge, in its plane, m
   double along_x = 1, along_y = 0;  ///< to the other edge, m
   double per_square = 1;            ///< 1 over the square of their distance, 1/m2
 
   bool round = false;
-  double axis_x = 0, axis_z = 0;         ///< of a round one, m
-  int first_curve = 0, curve_bands = 0;  ///< of a round one: where its curvatures are among those of the box
+  double axis_x = 0, axis_z = 0;         ///< for a round one, m
+  int first_curve = 0, curve_bands = 0;  ///< for a round one: place of its curvatures in the box's list
 
   Plate() = default;
   Plate(double x0, double y0, double x1, double y1)
@@ -60,16 +60,16 @@ struct Plate {
     const double dx = centre[0] - axis_x, dz = centre[2] - axis_z;
     return {std::sqrt(dx * dx + dz * dz), centre[1]};
   }
-  /// Where along the plate the point lies that is nearest to another: below 0 and above 1 beyond an edge.
+  /// Position along the plate of the point nearest to another: below 0 and above 1 beyond an edge.
   [[nodiscard]] double share(const InPlane& point) const {
     return ((point[0] - x) * along_x + (point[1] - y) * along_y) * per_square;
   }
-  /// To a point from the one of the plate that is nearest to it, m.
+  /// Vector to a point from the nearest point on the plate, m.
   [[nodiscard]] InPlane to(const InPlane& point) const {
     const double within = std::clamp(share(point), 0.0, 1.0);
     return {point[0] - x - within * along_x, point[1] - y - within * along_y};
   }
-  /// To a centre from the point of the plate that is nearest to it, m. On the axis of a round one, along x.
+  /// Vector to a centre from the nearest point on the plate, m. On the axis of a round one, along x.
   [[nodiscard]] Vector to(const Vector& centre) const {
     const InPlane point = in_plane(centre), away = to(point);
     if (!round || point[0] == 0) return {away[0], away[1], 0};
@@ -77,23 +77,23 @@ struct Plate {
     return {outward * (centre[0] - axis_x), away[1], outward * (centre[2] - axis_z)};
   }
   enum class Part { first_edge, face, second_edge };
-  /// Which part of it is nearest to a point. The width given to edges keeps rounding from finding two faces, or none,
-  /// at a joint.
+  /// The part of it nearest to a point. The width given to edges keeps rounding from finding two faces, or none, at a
+  /// joint.
   [[nodiscard]] Part nearest(const InPlane& point) const {
     constexpr double width = 1e-9;
     const double at = share(point);
     return at < width ? Part::first_edge : (at > 1 - width ? Part::second_edge : Part::face);
   }
-  /// Number of the curvature that a sphere meets there, from 1 on; 0: the plate is flat there, or ends.
+  /// Number of the curvature at a sphere's contact, from 1; 0: the plate is flat there, or ends.
   [[nodiscard]] int curve_at(const Vector& centre) const;
 };
 
-/// An edge of a plate that lies on another plate.
+/// An edge of a plate on another plate.
 struct Joint {
   int plate = 0;
   Plate::Part edge{};
   int other = 0;
-  Plate::Part at{};  ///< on which part of the other
+  Plate::Part at{};  ///< part of the other plate
 };
 
 /// A wall at rest: a face of the box, or a plate.
@@ -101,29 +101,29 @@ struct Wall {
   int axis = 0;      ///< 0, 1, 2
   int side = 0;      ///< 0: at 0, 1: at the far end
   double place = 0;  ///< m
-  int plate = -1;    ///< which; -1: a face, and of a plate the rest is without meaning, but for a bottom that is one
+  int plate = -1;    ///< index; -1: a face. For a plate the rest has no meaning, except for a bottom that is one
   [[nodiscard]] bool is_bottom() const { return axis == 1 && side == 0; }
 };
 
 struct Box {
   Vector size{};  ///< along x, y (up), z, m
   std::array<bool, 3> periodic{};
-  std::vector<Wall> walls;         ///< of the directions that are not periodic; none where the box is open; then plates
-  std::vector<Plate> plates;       ///< inside; flat ones or round ones, and the side of a round box
-  std::vector<Joint> joints;       ///< of the plates
+  std::vector<Wall> walls;         ///< whole faces, except periodic and open ones; then plates
+  std::vector<Plate> plates;       ///< inside; flat or round ones, and the side of a round box
+  std::vector<Joint> joints;       ///< between the plates
   std::vector<double> curvatures;  ///< of contacts with round plates, 1/m: above 0 from inside, below 0 from outside
   bool round = false;              ///< its cross-section is the circle within its width and depth
-  TaperedSide side;                ///< of a round box whose diameter changes
-  std::vector<Opening> openings;   ///< through which particles leave; absent: all faces are whole
-  double shear_rate = 0;           ///< of Lees and Edwards: d v_x/d y, 1/s; then y is periodic
-  double strain_before = 0;        ///< that it has undergone before time 0
+  TaperedSide side;                ///< for a round box whose diameter changes
+  std::vector<Opening> openings;   ///< through which particles leave; empty: all faces are closed
+  double shear_rate = 0;           ///< Lees and Edwards: d v_x/d y, 1/s; then y is periodic
+  double strain_before = 0;        ///< strain before time 0
 
-  /// Whether all its walls are whole faces: an open top has none.
+  /// Whether all its walls are whole faces; an open top is not.
   [[nodiscard]] bool plain() const {
     return plates.empty() && std::all_of(openings.begin(), openings.end(), [](const Opening& o) { return o.is_top(); });
   }
-  /// To a centre from the point that is nearest to it of a face with openings, m: straight in or out, or from the rim;
-  /// nothing: the face is whole. A sphere that fits through an opening touches one part of its rim at a time.
+  /// Vector to a centre from the nearest point of a face with openings, m: perpendicular, or from the rim; nothing if
+  /// the face is whole. A sphere that fits through an opening touches one part of its rim at a time.
   [[nodiscard]] std::optional<Vector> from_opened(int axis, int side, const Vector& centre) const;
   /// Whether a flat plate ends where a centre is nearest to a rim, or lies along it: the plate pushes, the rim does not
   /// push again.
@@ -132,22 +132,22 @@ struct Box {
   /// Whether a centre is in line with one of the openings that a face has.
   [[nodiscard]] bool in_line(const Opening& face, const Vector& centre) const;
 
-  /// A place brought back between the joined faces of a box at rest.
+  /// A place wrapped between the joined faces of a box at rest.
   [[nodiscard]] Vector wrapped(Vector x) const;
-  /// Whether a sphere lies wholly within the side of a round box; of another box always true.
+  /// Whether a sphere lies wholly within the side of a round box; always true for another box.
   [[nodiscard]] bool within_side(const Place& sphere) const;
-  /// Adds a flat plate, and a wall that it is.
+  /// Adds a flat plate and the corresponding wall.
   void add_plate(const Plate& plate) { walls.push_back({0, 0, 0, joined(plate)}); }
-  /// The same of a cone about the axis of the box: half its diameter and height at both ends, m.
+  /// The same for a cone about the axis of the box: half its diameter and height at both ends, m.
   void add_cone(const InPlane& from, const InPlane& to);
-  /// Makes the bottom a plate with the opening in it, so that round plates which end on it push once with it.
+  /// Replaces the bottom by a plate with the opening in it, so that round plates ending on it push once with it.
   void make_bottom_a_plate();
-  /// Whether a plate pushes a centre near it: not by an edge from which the centre is nearer to the face of the plate
-  /// joined there, and of two that have the same edge nearest to it the one of lower number. So plates that continue
-  /// each other push once.
+  /// Whether a plate pushes a centre near it. It does not push with an edge if the centre is nearer to the face of the
+  /// plate joined there; of two plates with the same nearest edge, the one with the lower number pushes. Plates that
+  /// continue each other thus push once.
   [[nodiscard]] bool pushes(int plate, const Vector& centre) const;
 
-  /// What is added to x and v_x of the image of a particle one box up, at a time, m and m/s. The first within +-L/2.
+  /// Added to x and v_x of a particle's image one box higher, at a time, m and m/s. The first within +-L/2.
   [[nodiscard]] double image_shift(double time) const {
     const double shift = std::fmod(shear_rate * size[1] * time + strain_before * size[1], size[0]);
     return shift > 0.5 * size[0] ? shift - size[0] : (shift < -0.5 * size[0] ? shift + size[0] : shift);
@@ -162,14 +162,14 @@ struct Box {
   [[nodiscard]] Plate about_axis(const InPlane& from, const InPlane& to) const;
 };
 
-/// The images of one instant. An image is told by a number: how many boxes, -1, 0 or 1, it lies away along each axis.
+/// The images at one instant. An image has a number: its distance in boxes, -1, 0 or 1, along each axis.
 struct Images {
   static constexpr int here = 13, count = 27;
-  std::array<Vector, count> shift{};  ///< what the image is moved by, m
-  std::array<double, count> speed{};  ///< how much faster it is along x, m/s
+  std::array<Vector, count> shift{};  ///< displacement of the image, m
+  std::array<double, count> speed{};  ///< its additional velocity along x, m/s
   Vector period{}, half{};            ///< infinite half: no images along that axis
 
-  /// \param time   s  \param since  s, from the time at which the numbers were given: a sheared box has moved on
+  /// \param time   s  \param since  s, from the time of the image numbers: a sheared box has moved on
   Images(const Box& box, double time, double since) {
     const double sheared = box.image_shift(time - since) + box.image_speed() * since;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -184,20 +184,20 @@ struct Images {
     }
   }
 
-  /// How many boxes lie between two particles at a distance d along an axis: -1, 0 or 1.
+  /// Number of boxes between two particles at a distance d along an axis: -1, 0 or 1.
   [[nodiscard]] int boxes(double d, std::size_t axis) const {
     return (d > half[axis] ? 1 : 0) - (d < -half[axis] ? 1 : 0);
   }
 
-  /// The image of j that is nearest to i. \param d  x_i - x_j
+  /// The image of j nearest to i. \param d  x_i - x_j
   [[nodiscard]] int nearest(const Vector& d) const {
     const int up = boxes(d[1], 1);
     const int aside = boxes(d[0] - shift[std::size_t(here + 3 * up)][0], 0);
     return here + aside + 3 * up + 9 * boxes(d[2], 2);
   }
 
-  /// Calls with those images of j that lie on the other side of i than the nearest one, along one axis or several. Not
-  /// in a sheared box, whose images move along each other. \param d  x_i - x_j  \param nearest  what nearest(d) is
+  /// Calls act with the images of j on the other side of i from the nearest one, along one axis or several. Not in a
+  /// sheared box, whose images move along each other. \param d  x_i - x_j  \param nearest  result of nearest(d)
   template <class Act>
   void each_other(const Vector& d, int nearest, Act&& act) const {
     constexpr std::array<int, 3> stride{1, 3, 9};
@@ -214,22 +214,22 @@ struct Images {
     }
   }
 
-  /// The image of i that is nearest to j, where that of j nearest to i is given.
+  /// The image of i nearest to j, from the image of j nearest to i.
   [[nodiscard]] static constexpr int opposite(int image) { return 2 * here - image; }
 
-  /// x_i - x_j of an image of j.
+  /// x_i - x_j for an image of j.
   [[nodiscard]] Vector seen(Vector d, int image) const {
     for (std::size_t k = 0; k < 3; ++k) d[k] -= shift[std::size_t(image)][k];
     return d;
   }
 };
 
-/// Greatest number and range of forces that a sum in whole units holds, and the unit. Sums of int64 do not depend on
-/// their order, so that neither ranks nor the order of pairs change a bit.
+/// Unit for sums of forces in whole numbers, from the greatest number and range of the forces. Sums of int64 do not
+/// depend on their order, so neither ranks nor the order of pairs change a bit.
 struct FixedPoint {
   double per_unit = 1, unit = 1;  ///< 1/unit and unit, a power of two; N, or N m, or J
 
-  /// Unit for sums of at most `terms` numbers of at most `most` each: the largest power 2^q with most terms 2^q < 2^62;
+  /// Unit for at most `terms` numbers of at most `most` each: the largest power 2^q with most terms 2^q < 2^62;
   /// 1 if they are all 0.
   static FixedPoint for_sums_of(double most, double terms) {
     if (most == 0) return {};
@@ -238,8 +238,8 @@ struct FixedPoint {
   }
 };
 
-/// Adds the whole units of a force. Forces beyond all bounds wrap: what they come from, an overlap or a speed, ends the
-/// run before the next step. The conversion of C++ is undefined for them, the processor's instruction for it is not.
+/// Adds a force in whole units. A force out of range wraps: its cause, an overlap or a speed, ends the run before the
+/// next step. The C++ conversion is undefined for it; the processor's instruction is not.
 inline void add_units(double units, std::int64_t& sum) {
 #ifdef __x86_64__
   const std::int64_t whole = _mm_cvttsd_si64(_mm_set_sd(units));

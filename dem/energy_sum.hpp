@@ -1,4 +1,4 @@
-// A sum of energies that grows over a whole run and is the same to the bit in any order.
+// A sum of energies over a whole run, the same to the bit in any order.
 #pragma once
 
 #include <array>
@@ -9,12 +9,12 @@
 
 namespace polybed::dem {
 
-/// Whole units and parts of one. The unit is as large as the greatest sum asks for; what one contact or one kick adds
-/// may be far smaller, millions of them in a step, and cut to whole units would vanish or drift.
+/// Whole units and fractions of one. The unit suits the greatest possible sum; the energy of one contact or kick can be
+/// far smaller, millions of them in a step, and would vanish or drift if cut to whole units.
 class EnergySum {
  public:
   static constexpr int part_bits = 30;
-  static constexpr double parts = std::int64_t(1) << part_bits;  ///< of a unit
+  static constexpr double parts = std::int64_t(1) << part_bits;  ///< per unit
 
   EnergySum() = default;
   EnergySum(std::int64_t whole, std::int64_t part) : whole_(whole), part_(part) { carry(); }
@@ -26,7 +26,7 @@ class EnergySum {
     part_ += std::int64_t((units - double(whole)) * parts);
     carry();
   }
-  /// The same of each of many, fewer than 2^33, times `per_energy`; none waits for the one before.
+  /// The same for many, fewer than 2^33, times `per_energy`; none waits for the previous one.
   void add(std::span<const double> energies, double per_energy) {
     std::int64_t whole = 0, part = 0;
     for (const double energy : energies) {
@@ -58,7 +58,7 @@ class EnergySum {
   std::int64_t whole_ = 0, part_ = 0;
 };
 
-/// Collective: what all ranks have together, on each of them.
+/// Collective: the sum over all ranks, on each of them.
 template <std::size_t count>
 void add_over_ranks(const core::Ranks* ranks, std::array<EnergySum, count>& sums) {
   std::array<std::int64_t, 2 * count> numbers;

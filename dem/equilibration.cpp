@@ -1,4 +1,4 @@
-// Random moves of hard spheres until they are a fluid of hard spheres.
+// Random moves that turn an arrangement of hard spheres into an equilibrium fluid.
 #include "dem/hard_spheres.hpp"
 
 #include <algorithm>
@@ -13,15 +13,15 @@ namespace polybed::dem {
 
 namespace {
 
-/// After spheres were pushed apart with gaps, so many leave pair distributions within 5 % of the fluid's up to a
-/// fraction of 0.5 (one size), measured; much more would be needed beyond 0.55, where hard spheres become a glass.
+/// After spheres were pushed apart with gaps, this number brings pair distributions within 5 % of the fluid's up to a
+/// fraction of 0.5 (one size), measured; many more would be needed above 0.55, where hard spheres become a glass.
 constexpr int sweeps = 20;
 
 struct Lengths {
-  double step, skin;  ///< m; the longest step along an axis, and how far two may come together before they are listed
+  double step, skin;  ///< m; longest step along an axis, and approach of two spheres before they are listed
 };
 
-/// A step of about the free path between collisions, d/(6 phi g0), so that a third to a half of the steps are taken.
+/// A step of about the free path between collisions, d/(6 phi g0), so that a third to a half of the steps are accepted.
 Lengths lengths_for(double diameter, double fraction) {
   const double most = 0.2, g0 = closures::radial_carnahan_starling(fraction).value;
   const double step = std::min(most, 1 / (6 * fraction * g0));
@@ -52,7 +52,7 @@ class Metropolis {
   }
 
  private:
-  /// The neighbours of each sphere, one after the other.
+  /// Lists the neighbours of each sphere, one sphere after the other.
   void list() {
     spheres_.list(skin_);
     const std::vector<Contacts::Pair>& pairs = spheres_.pairs();
@@ -70,7 +70,7 @@ class Metropolis {
     farthest_ = 0;
   }
 
-  /// 21 bits for each axis.
+  /// Uses 21 bits for each axis.
   [[nodiscard]] Vector tried(std::size_t i, std::uint64_t bits) const {
     constexpr std::uint64_t mask = 0x1fffff;
     Vector x = place_[i].x;
@@ -96,10 +96,10 @@ class Metropolis {
   HardSpheres& spheres_;
   std::vector<Place>& place_;
   double step_, skin_;
-  std::vector<std::size_t> first_;  ///< in neighbours_, of each sphere
+  std::vector<std::size_t> first_;  ///< for each sphere, index in neighbours_
   std::vector<Neighbour> neighbours_;
   std::vector<Place> listed_;
-  double farthest_ = 0;  ///< m, from where a sphere was listed
+  double farthest_ = 0;  ///< m, from the place at the last listing
 };
 
 }  // namespace

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t numbers_of_sphere = 4;
 
-/// What every rank has, on all of them. Sums with zeros are exact, and the order of the ranks has no effect here.
+/// The data of every rank, on all ranks. Sums with zeros are exact, and the order of the ranks has no effect here.
 std::vector<double> of_all_ranks(const core::Ranks* ranks, std::vector<double> own) {
   if (ranks == nullptr) return own;
   std::vector<std::int64_t> size(std::size_t(ranks->count()), 0);
@@ -40,7 +40,7 @@ FeedStrip::FeedStrip(const Model& model, core::ColumnFace at) : box_(model.box()
   std::vector<double> own;
   for (std::size_t i = 0; i < particles.owned; ++i) {
     const auto& [x, radius] = particles.place[i];
-    // Those that enter lie within one of the largest diameters of the face, but for a hair.
+    // Entering particles lie within the largest diameter of the face, apart from a tiny gap.
     const double away = side_of(at) == 1 ? far - x[a] - radius : x[a] - radius;
     if (away < 1.5 * widest) own.insert(own.end(), {x[0], x[1], x[2], radius});
   }
@@ -49,7 +49,7 @@ FeedStrip::FeedStrip(const Model& model, core::ColumnFace at) : box_(model.box()
     add({{s[0], s[1], s[2]}, s[3]});
 }
 
-/// Particles stray beyond walls by their overlaps, and beyond joined faces until the list is made.
+/// Particles stray beyond walls by their overlaps, and beyond joined faces until the list is rebuilt.
 int FeedStrip::place_of(double x, std::size_t n) const {
   const std::size_t axis = across_[n];
   const double share = x / box_.size[axis];
@@ -81,7 +81,7 @@ bool FeedStrip::has_room_for(const Place& sphere) const {
     if (std::hypot(away[0], away[1]) < sphere.radius) return false;
   }
   const int i = place_of(sphere.x[across_[0]], 0), k = place_of(sphere.x[across_[1]], 1);
-  // A bin that is its own neighbour is searched again, which changes nothing.
+  // A bin that is its own neighbour is searched again, without effect.
   const auto near = [this](int n, std::size_t axis) {
     const int bins = bins_[axis];
     return box_.periodic[across_[axis]] ? (n + bins) % bins : std::clamp(n, 0, bins - 1);

@@ -1,4 +1,4 @@
-// The particles near an end or a side of the box, of all ranks: what those that enter there must not overlap.
+// The particles on all ranks near an end or a side of the box, which entering particles must not overlap.
 #pragma once
 
 #include <array>
@@ -12,19 +12,19 @@ namespace polybed::dem {
 
 class Model;
 
-/// Axes across a face of the column, in which a feed has places.
+/// Axes across a face of the column, along which a feed draws places.
 [[nodiscard]] constexpr std::array<std::size_t, 2> across(core::ColumnFace at) {
   return {axis_of(at) == 0 ? std::size_t(1) : 0, axis_of(at) == 2 ? std::size_t(1) : 2};
 }
 
-/// Spheres in bins across the face, as wide as the largest of them. The same on every rank.
+/// Spheres in bins across the face, as wide as the largest sphere. The same on every rank.
 class FeedStrip {
  public:
   /// Collective.
   FeedStrip(const Model& model, core::ColumnFace at);
 
-  /// Whether a sphere would overlap none of those in the strip, no image of one, no plate inside the box, and not the
-  /// side of a round one.
+  /// Whether a sphere overlaps neither a sphere in the strip or its image, nor a plate inside the box, nor the side of
+  /// a round one.
   [[nodiscard]] bool has_room_for(const Place& sphere) const;
   void add(const Place& sphere);
 
@@ -36,7 +36,7 @@ class FeedStrip {
   const Box& box_;
   std::array<std::size_t, 2> across_;       ///< axes of the bins
   std::array<int, 2> bins_{};               ///< along them
-  std::vector<std::vector<Place>> inside_;  ///< of each bin
+  std::vector<std::vector<Place>> inside_;  ///< for each bin
 };
 
 }  // namespace polybed::dem

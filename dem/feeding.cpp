@@ -20,11 +20,11 @@ namespace {
 /// Random places drawn for a particle before it waits.
 constexpr int most_tries = 100;
 
-/// Random sequences of a feed, along both axes of its face. The start uses lower numbers.
+/// Random sequences for a feed, along both axes of its face. The start uses lower numbers.
 constexpr std::uint64_t first_sequence = 1000;
 std::uint64_t sequence(std::size_t feed, std::uint64_t n) { return first_sequence + 2 * feed + n; }
 
-/// Where the centres of a feed's particles may be. They enter a hair away from the wall.
+/// Range of the centres for a feed. Particles enter at a tiny distance from the wall.
 std::pair<Vector, Vector> centres(const core::Feed& feed, const core::Column& column, const Box& box, double radius) {
   constexpr double hair = 1 + 0x1p-20;
   Vector low{}, high = box.size;
@@ -62,14 +62,14 @@ Feeding::Feeding(const core::Scene& scene, const Materials& materials, const Box
                                     [&](const Species& s) { return s.name == feed.species; });
     const double radius = found->radius;
     const auto [low, high] = centres(feed, scene.column, box, radius);
-    // The list is made when the fastest particles have moved by half of the skin: no more often because of feeds.
+    // Feeds must not make rebuilds of the list more frequent than when the fastest particles move half of the skin.
     feeds_.push_back({std::int32_t(found - materials.species().begin()), feed.at, feed.velocity,
                       0.5 * skin / feed.velocity, fluid::Ramp(feed.superficial_velocity),
                       area_of(feed, scene.column) / closures::sphere_volume(radius), low, high});
   }
 }
 
-/// A millionth of a particle early: a time at which the next one is just called for is rounded either way.
+/// A millionth of a particle early: a time at which the next one is just due is rounded either way.
 std::int64_t Feeding::Feed::called_for(double t) const {
   return std::int64_t(std::floor(rate.integral(t) * per_height + 1e-6));
 }
@@ -199,7 +199,7 @@ void Feeding::write(core::Checkpoint& checkpoint, const Particles&, const core::
   checkpoint.integers["feed_energy_part"] = energy.part();
 }
 
-/// At the start of another run nothing has entered, and ids go on behind the last one that the particles have.
+/// At the start of another run no particle has entered, and ids continue after the last one.
 void Feeding::read(const Restored& from) {
   const std::size_t count = feeds_.size();
   std::int64_t free_id = 0;

@@ -1,4 +1,4 @@
-// What enters the box through [[feed]]: how many particles and when, where, and what has come in.
+// Particles that enter the box through [[feed]]: their number, time and place, and totals.
 #pragma once
 
 #include <cstdint>
@@ -25,31 +25,31 @@ class Decomposition;
 /// velocity. One that finds no place waits, and is tried again later. Feeds that
 /// call for particles more often than the list of pairs has to be made for their speed let them in several at a time.
 ///
-/// The same on every rank, and on any number of ranks to the bit: places come from bed.seed, the feed and a number.
+/// The same on every rank, and on any number of ranks to the bit: places depend on bed.seed, the feed and a number.
 class Feeding final : public KeptPart {
  public:
   /// \param skin  of the list of pairs, m  \param count  of particles at the start, numbered from 0
   Feeding(const core::Scene& scene, const Materials& materials, const Box& box, double skin, std::int64_t count);
 
-  std::vector<std::int64_t> number;  ///< that have entered, of each species, since the start
-  std::int64_t steps = 0;            ///< that the run had taken when they entered, summed over them
-  /// What they brought with them, of motion and gravity, in the unit of energy.
+  std::vector<std::int64_t> number;  ///< of entered particles of each species, since the start
+  std::int64_t steps = 0;            ///< step numbers at their entry, summed over them
+  /// Their motion and gravity at entry, in the unit of energy.
   EnergySum energy;
 
-  /// Ids go on behind the last one.
+  /// Ids continue after the last one.
   [[nodiscard]] std::int64_t next_id() const { return next_id_; }
   /// Particles of all species.
   [[nodiscard]] std::int64_t all() const;
-  /// By a time, of each species.
+  /// Number due by a time, for each species.
   [[nodiscard]] std::vector<std::int64_t> called_for(double t) const;
-  /// That have found no room when places were last drawn for them, of each species.
+  /// Number without room when places were last drawn, for each species.
   [[nodiscard]] std::vector<std::int64_t> waiting() const;
-  /// What is said of those that wait; empty: none does.
+  /// Warning about waiting particles; empty: none wait.
   [[nodiscard]] std::string warning() const;
 
-  /// Whether a particle is to be let in at a time, s.
+  /// Whether a particle must enter at a time, s.
   [[nodiscard]] bool due(double t) const;
-  /// Decides who enters at a time, counts them, and returns how many there are. Collective.
+  /// Selects the particles that enter at a time, counts them, and returns their number. Collective.
   std::int64_t choose(const Model& model, double t);
   /// At a time that is not before that of the last call.
   [[nodiscard]] Arrivals arrivals(double t);
@@ -66,13 +66,13 @@ class Feeding final : public KeptPart {
     std::int32_t species;
     core::ColumnFace at;
     double velocity;    ///< inwards, m/s
-    double pause;       ///< least time between two times that particles enter, s
+    double pause;       ///< least time between two entries, s
     fluid::Ramp rate;   ///< superficial velocity of the solids, m/s
-    double per_height;  ///< particles in a volume as high as one metre on the feed's area
+    double per_height;  ///< particles in a volume of one metre height over the feed's area
     Vector low, high;   ///< of centres, m
     std::int64_t entered = 0;
     std::int64_t tries = 0;   ///< random places drawn so far
-    double tried_at = never;  ///< when places were last drawn, s
+    double tried_at = never;  ///< time of the last draw, s
 
     [[nodiscard]] std::int64_t called_for(double t) const;
     [[nodiscard]] bool due(double t) const;

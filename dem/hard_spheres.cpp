@@ -55,7 +55,7 @@ void Region::move_within_side(Vector& x) const {
   x[2] -= beyond / away * dz;
 }
 
-/// Squares about the axis become circles: a point keeps its place along the side of its square.
+/// Maps squares about the axis to circles: a point keeps its relative place along the side of its square.
 Vector Region::mapped_within_side(const Vector& x) const {
   const auto [dx, dz] = from_axis(x);
   const double height = side ? side.height_of(x[1]) : x[1], drawn_in = side ? side.narrowing(height) : 1;

@@ -1,5 +1,5 @@
-// Places of hard spheres before the first step: sorted, so that near ones are near in memory, with lists of those that
-// may touch.
+// Places of hard spheres before the first step: sorted, so that neighbours are close in memory, with lists of possible
+// contacts.
 #pragma once
 
 #include <array>
@@ -14,21 +14,21 @@
 
 namespace polybed::dem {
 
-/// Where a particle may be as a whole, m; no limit along joined directions that it spans.
+/// Range of a whole particle, m; no limit along joined directions that it spans.
 struct Region {
   Vector low, high;
-  bool round = false;    ///< within the upright cylinder that fits between these corners; it is as wide as deep
+  bool round = false;    ///< within the upright cylinder between these corners; it is as wide as deep
   TaperedSide side{};    ///< instead of that cylinder
-  double of_sphere = 0;  ///< radius for which the tapered side leaves room: of bounds of a centre, m
+  double of_sphere = 0;  ///< radius of a sphere that fits the tapered side: for bounds of a centre, m
 
   [[nodiscard]] double volume() const;
-  /// Whether a place between the corners lies within the side of a round one.
+  /// Whether a place between the corners lies within the side of a round region.
   [[nodiscard]] bool within_side(const Vector& x) const {
     return !round || distance_from_axis(x) <= (side ? side.reach(x[1], of_sphere) : radius());
   }
-  /// Moves a place outside the side of a round one to it.
+  /// Moves a place outside the side of a round region onto it.
   void move_within_side(Vector& x) const;
-  /// The box that places are drawn from which are then mapped into a round one: as high as its volume demands.
+  /// The box in which places are drawn before they are mapped into a round region; its height follows from the volume.
   [[nodiscard]] Region even() const;
   /// Maps a place in that box into the round one, equal volumes to equal volumes: the concentric map of Shirley and
   /// Chiu (J. Graphics Tools 2 (3), 1997, 45), scaled to the radius at its height.
@@ -42,14 +42,14 @@ struct Region {
   [[nodiscard]] double distance_from_axis(const Vector& x) const;
 };
 
-/// Places particles in a region, whatever their overlaps. Some lie anywhere; the others, in random order, each in a
-/// part of the region as large as its share of the volume. Particles that all lay anywhere would be as uneven as an
-/// ideal gas, and what is uneven over many diameters takes longest to even out.
+/// Places particles in a region, with overlaps. Some lie anywhere; the others, in random order, each in a part of the
+/// region as large as its share of the volume. If all particles lay anywhere, they would be as uneven as an ideal gas,
+/// and unevenness over many diameters takes longest to disappear.
 void spread(std::vector<Particle*>& particles, const Region& region, std::uint64_t seed);
 
 class HardSpheres {
  public:
-  /// \param region  of each particle
+  /// \param region  for each particle
   HardSpheres(const std::vector<Particle>& all, const std::vector<Region>& region, const Box& box,
               const Materials& materials);
 
@@ -57,7 +57,7 @@ class HardSpheres {
   void list(double reach);
   [[nodiscard]] const std::vector<Contacts::Pair>& pairs() const { return near_.pairs; }
   [[nodiscard]] const Vector& shift(std::int32_t image) const { return images_.shift[std::size_t(image)]; }
-  /// Overlap of any listed pair at most, over the smaller radius.
+  /// Greatest overlap in any listed pair, over the smaller radius.
   [[nodiscard]] double greatest_overlap() const;
 
   [[nodiscard]] std::vector<Place>& places() { return particles_.place; }
@@ -77,14 +77,14 @@ class HardSpheres {
   Contacts near_;
 };
 
-/// Moves spheres apart, lighter ones further, until none overlap; in a bed near the densest by less than a thousandth
-/// of the smaller radius. Until then each pair is held at a random gap, as in a fluid of hard spheres: pushed to
-/// contact alone, most would end in contact.
-/// Returns 0, or, if they do not fit, the overlap that is left over the smaller radius. \param gap  m, the largest
+/// Moves spheres apart, lighter ones further, until none overlap; in a bed near the densest until overlaps are below a
+/// thousandth of the smaller radius. Until then each pair has a random gap, as in a fluid of hard spheres: most pairs
+/// pushed just to contact would stay in contact. Returns 0 or, if they do not fit, the remaining overlap over the
+/// smaller radius. \param gap  m, the largest
 [[nodiscard]] double push_apart(HardSpheres& spheres, double gap);
 
 /// Sweeps of Metropolis et al. (J. Chem. Phys. 21, 1953): each sphere in turn tries a random step and takes it if it
-/// overlaps none. This leaves the statistics of a fluid of hard spheres as they are, and any others it brings there.
+/// overlaps none. This preserves the statistics of a fluid of hard spheres and drives any other arrangement to them.
 /// \param fraction  of solids
 void equilibrate(HardSpheres& spheres, double least_diameter, double fraction, std::uint64_t seed);
 

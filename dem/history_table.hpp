@@ -1,4 +1,4 @@
-// What the particle model alone tells in history.csv.
+// Columns of history.csv from the particle model alone.
 #pragma once
 
 #include <vector>
@@ -8,23 +8,23 @@
 
 namespace polybed::dem {
 
-/// What its columns are read off, at one time.
+/// Source of its columns, at one time.
 struct Told {
   Totals totals;
-  double most_solids = 0;                    ///< greatest phi of the fluid's cells
+  double most_solids = 0;                    ///< greatest phi in the fluid's cells
   double fluid_mass = 0;                     ///< of a compressible fluid, kg
-  std::vector<double> number_out, mass_out;  ///< that have left since the start, kg, [species]
-  std::vector<double> number_in, mass_in;    ///< that have entered since the start, kg, [species]
+  std::vector<double> number_out, mass_out;  ///< of particles that have left since the start, kg, [species]
+  std::vector<double> number_in, mass_in;    ///< of particles that have entered since the start, kg, [species]
 };
 
-/// What a run has.
+/// Optional parts of a run.
 struct Parts {
   bool ledger = false, outflow = false, fluid = false;
   bool feeding = false;       ///< particles are fed
-  bool compressible = false;  ///< the fluid is
+  bool compressible = false;  ///< the fluid is compressible
 };
 
-/// The columns behind those of the bed.
+/// The columns after the bed's.
 [[nodiscard]] measures::Table<Told> history_table(const Parts& parts);
 
 }  // namespace polybed::dem

@@ -38,7 +38,7 @@ RunStart read_run_start(const core::Checkpoint& checkpoint, const Model& model) 
   values.push_back(0);
   core::on_first(model.ranks(), [&] {
     values.back() = checkpoint.number("initial_energy");
-    const auto kept = checkpoint.arrays.find("initial_number");  // checkpoints of older versions have none
+    const auto kept = checkpoint.arrays.find("initial_number");  // checkpoints from older versions lack it
     if (kept == checkpoint.arrays.end()) return;
     constexpr double most = 1e15;  // a whole number in a double
     const bool counts = std::all_of(kept->second.begin(), kept->second.end(),
@@ -55,8 +55,8 @@ RunStart read_run_start(const core::Checkpoint& checkpoint, const Model& model) 
 
 Invariants::Invariants(const Model& model, RunStart start, bool ledger)
     : model_(model), start_(std::move(start)), ledger_(ledger) {
-  constexpr double ledger_limit = 1e-3;      // of the greatest energy met: V5
-  constexpr double fluid_mass_limit = 1e-4;  // of what was there or came in
+  constexpr double ledger_limit = 1e-3;      // over the greatest energy so far: V5
+  constexpr double fluid_mass_limit = 1e-4;  // over the initial mass or the inflow
   const char* report = "that is a fault of the program: report it with the case";
   const bool stated = model.limits().dt != model.limits().all.front().dt;
   if (ledger)
@@ -72,8 +72,8 @@ Invariants::Invariants(const Model& model, RunStart start, bool ledger)
         {.name = "mass of the fluid", .limit = fluid_mass_limit, .judged = true, .remedy = "lower dem.fluid_every"});
 }
 
-/// Kinetic energy that particles have who fall for as long as a contact lasts, J. Over the first few steps of a fall
-/// the energy met is less, and the error of a step no small share of it.
+/// Kinetic energy of particles after a fall over the duration of a contact, J. In the first few steps of a fall the
+/// greatest energy is less, and the error of a step is a large share of it.
 double energy_of_a_short_fall(const Model& model, const std::vector<std::int64_t>& number) {
   constexpr double steps = 20;
   const Vector g = model.gravity();
@@ -83,10 +83,10 @@ double energy_of_a_short_fall(const Model& model, const std::vector<std::int64_t
   return 0.5 * mass * square * time * time;
 }
 
-/// Of the ledger's differences from the energy at the start against the greatest energy met: V5.
+/// Difference of the ledger from the energy at the start, over the greatest energy so far: V5.
 double Invariants::energy_miss(const Totals& now) {
-  // In a viscous fluid, or at a start with overlaps, little is ever kinetic: it is work of the fluid, or in springs.
-  // A pull that has just begun has done little work, and stands for what it will do.
+  // In a viscous fluid, or at a start with overlaps, little energy is ever kinetic: it is work of the fluid, or in
+  // springs. An attraction that has just begun counts with the work that it will do.
   greatest_energy_ = std::max({greatest_energy_, now.kinetic + now.rotational, now.dissipated, std::abs(now.elastic),
                                std::abs(now.work), now.pull});
   const double scale = std::max(greatest_energy_, energy_of_a_short_fall(model_, start_.number));

@@ -1,4 +1,4 @@
-// What particles and the fluid between them must keep over a run: their energy, their number, the mass of the fluid.
+// Invariants of particles and the fluid between them over a run: energy, number, mass of the fluid.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace polybed::dem {
 
-/// What the laws are checked against: the state at the start of a run.
+/// Reference for the laws: the state at the start of a run.
 struct RunStart {
   double energy = 0;                 ///< J, Totals::sum()
   std::vector<std::int64_t> number;  ///< of particles in the box, by species
@@ -20,21 +20,21 @@ struct RunStart {
 [[nodiscard]] std::vector<std::int64_t> numbers_of(const Model& model);
 
 void write(const RunStart& start, core::Checkpoint& checkpoint);
-/// Of a run that goes on; the number is that of now where the checkpoint has none. Collective, the first rank's
-/// checkpoint is read.
+/// For a continued run; uses the present number if the checkpoint has none. Collective; reads the first rank's
+/// checkpoint.
 [[nodiscard]] RunStart read_run_start(const core::Checkpoint& checkpoint, const Model& model);
 
-/// Watches the laws over a run.
+/// Monitors the laws over a run.
 class Invariants {
  public:
-  /// \param ledger  the energy is counted, and so is a law
+  /// \param ledger  the energy is counted and is one of the laws
   Invariants(const Model& model, RunStart start, bool ledger);
 
-  /// Measures and keeps what is worst. Collective, with the same result on every rank.
-  /// \param number  what numbers_of() says now  \param fluid  null without one
+  /// Measures and keeps the worst values. Collective, with the same result on every rank.
+  /// \param number  present result of numbers_of()  \param fluid  null without one
   void see(const Totals& now, const std::vector<std::int64_t>& number, const FluidRecord* fluid);
 
-  /// What a run that goes on cannot measure again, for its checkpoint, and the same taken up.
+  /// Data that a continued run cannot measure again, for its checkpoint, and their restoration.
   [[nodiscard]] core::Json past() const;
   void recall(const core::Json& past);
 
@@ -49,7 +49,7 @@ class Invariants {
   const Model& model_;
   RunStart start_;
   bool ledger_;
-  double greatest_energy_ = 0;  ///< met so far, J
+  double greatest_energy_ = 0;  ///< so far, J
   std::vector<measures::WorstInvariant> worst_;
 };
 

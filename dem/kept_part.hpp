@@ -1,5 +1,4 @@
-// What a checkpoint keeps of the parts of a model that only some scenes have: a fluid, a ledger, a sheared box, feeds,
-// and ways out.
+// Checkpoint data of a model's optional parts: a fluid, a ledger, a sheared box, feeds, and openings.
 #pragma once
 
 #include <span>
@@ -17,17 +16,17 @@ namespace polybed::dem {
 struct Restored {
   const core::Checkpoint& checkpoint;  ///< the first rank's
   const core::Ranks* ranks;
-  const Particles& particles;     ///< of this rank
+  const Particles& particles;     ///< on this rank
   std::span<const Particle> all;  ///< in the order of the checkpoint
-  bool same_run;                  ///< the run goes on; else another one begins with these particles
+  bool same_run;                  ///< the run continues; else another one starts with these particles
 };
 
-/// A part with state in the checkpoint. All functions but require() are collective.
+/// A part with state in the checkpoint. All functions except require() are collective.
 class KeptPart {
  public:
   virtual ~KeptPart() = default;
   virtual void write(core::Checkpoint&, const Particles&, const core::Ranks*) const {}
-  /// On the first rank alone: throws core::FileError where a run cannot go on without what the checkpoint lacks.
+  /// On the first rank only: throws core::FileError if a run cannot continue without data that the checkpoint lacks.
   virtual void require(const core::Checkpoint&) const {}
   virtual void read(const Restored&) = 0;
 };

@@ -1,4 +1,4 @@
-// The whole state of the particles, to the bit, independent of how many ranks share them.
+// The complete state of the particles, to the bit, independent of the number of ranks.
 #include "dem/kept_state.hpp"
 
 #include <fmt/format.h>
@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::size_t particle_width = 2 + 9 + 12, contact_head = 2;
 
-/// Numbers as doubles: ids and counts below 2^53 are exact; sums in whole units are kept as two halves.
+/// Numbers as doubles: ids and counts below 2^53 are exact; sums in whole units are stored as two halves.
 double* store(std::int64_t units, double* out) {
   *out++ = double(units >> 32);
   *out++ = double(units & 0xffffffff);
@@ -27,8 +27,8 @@ double* store(std::int64_t units, double* out) {
 }
 std::int64_t recalled(const double* in) { return (std::int64_t(in[0]) << 32) + std::int64_t(in[1]); }
 
-/// Particles that a file may hold, and where: ids are of one particle each, and nothing has left the world. What the
-/// ranges leave open is what no check tells from a state.
+/// Checks particles from a file: ids are unique, and no particle has left the world. Values within the ranges cannot be
+/// distinguished from a real state.
 void require_particles(const std::vector<double>& numbers, std::size_t species, const Vector& size) {
   constexpr double most_ids = 9007199254740992.0, fastest = 1e5, far = 100, half = 4294967296.0;
   if (numbers.size() % particle_width != 0) core::refuse_checkpoint("particles is cut short");
@@ -46,7 +46,7 @@ void require_particles(const std::vector<double>& numbers, std::size_t species, 
   }
 }
 
-/// The centres of particles that a box may have left lie within the side of a round one.
+/// The centres of particles that can leave a box lie within the side of a round one.
 void require_within_side(const std::vector<double>& numbers, const Box& box) {
   const double radius = 0.5 * box.size[0];
   const auto most = [&](double y) { return box.side && y >= 0 ? box.side.reach(y, 0) : radius; };
@@ -56,7 +56,7 @@ void require_within_side(const std::vector<double>& numbers, const Box& box) {
                                           p[0], p[2], p[3], p[4]));
 }
 
-/// Contacts of particles that are there.
+/// Checks that contacts refer to existing particles.
 void require_contacts(const std::vector<double>& numbers, std::size_t memory_size,
                       const std::vector<double>& particles) {
   const std::size_t width = contact_head + memory_size;
@@ -97,7 +97,7 @@ std::vector<KeptContact> read_contacts(const std::vector<double>& numbers, std::
   return kept;
 }
 
-/// Of checkpoints that older versions wrote: what holds for them.
+/// A number that checkpoints from older versions lack, with its value for them.
 double number_of(const core::Checkpoint& checkpoint, const std::string& key, double without) {
   const auto found = checkpoint.numbers.find(key);
   return found == checkpoint.numbers.end() ? without : found->second;
@@ -131,8 +131,8 @@ std::vector<core::BlockData> particle_rows(const Particles& particles,
               [&particles](std::int32_t i, double* row) { store_particle(particles, std::size_t(i), row); });
 }
 
-/// A contact across ranks, which both have, is written by the one that has its first particle. Walls are named by the
-/// complements of their places.
+/// A contact across ranks is written by the owner of its first particle, as both ranks have it. Walls are stored as the
+/// complements of their indices.
 std::vector<core::BlockData> contact_rows(const Contacts& pairs, const Contacts& walls, const Particles& particles,
                                           const std::shared_ptr<const core::Ranks>& ranks) {
   std::vector<RowName> own;

@@ -8,7 +8,7 @@
 
 namespace polybed::dem {
 
-/// What all ranks have together. Collective.
+/// Writes the sum over all ranks. Collective.
 inline void write_sum(core::Checkpoint& checkpoint, const core::Ranks* ranks, const std::string& key,
                       const EnergySum& sum) {
   std::array<EnergySum, 1> all{sum};
@@ -17,8 +17,8 @@ inline void write_sum(core::Checkpoint& checkpoint, const core::Ranks* ranks, co
   checkpoint.integers[key + "_part"] = all[0].part();
 }
 
-/// Of all ranks, on the first; 0 on the others and where a checkpoint has none, as of particles that were not sheared
-/// before.
+/// The sum over all ranks, on the first; 0 on the others and for a checkpoint without it, for example one of particles
+/// that were not sheared.
 [[nodiscard]] inline EnergySum sum_on_first(const core::Ranks* ranks, const core::Checkpoint& checkpoint,
                                             const std::string& key) {
   const auto found = [&](const std::string& name) {
@@ -27,7 +27,7 @@ inline void write_sum(core::Checkpoint& checkpoint, const core::Ranks* ranks, co
   return {found(key), found(key + "_part")};
 }
 
-/// Throws core::FileError where a checkpoint has no such sum.
+/// Throws core::FileError if a checkpoint has no such sum.
 inline void require_sum(const core::Checkpoint& checkpoint, const std::string& key) {
   (void)checkpoint.integer(key);
   (void)checkpoint.integer(key + "_part");

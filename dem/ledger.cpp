@@ -8,7 +8,7 @@ namespace {
 
 using Row = ContactBatch::Row;
 
-/// Adds load . rate for the load of the last step, which the memory holds, and for that of now, which it takes.
+/// Adds load . rate for the last step, from the memory, and for the present one, which it stores.
 void add_power(ContactBatch& b, int m, const Row* load, const Row* rate, Row& before, Row& now) {
   for (int k = 0; k < 3; ++k)
     for (int c = 0; c < b.padded(); ++c) {
@@ -18,7 +18,7 @@ void add_power(ContactBatch& b, int m, const Row* load, const Row* rate, Row& be
     }
 }
 
-/// Adds what a spring has gained since the last step, and what it holds.
+/// Adds a spring's gain since the last step, and its energy.
 void add_stored(ContactBatch& b, int m, const Row& stored, Row& gained, Row& held) {
   for (int c = 0; c < b.padded(); ++c) {
     gained[c] += stored[c] - b.memory[m][c];
@@ -35,7 +35,7 @@ void add_counted(const Row& lost, const Row& counted, int count, double per_unit
 
 Ledger::Ledger(const PairLaws& laws, int place, bool synchronised, FixedPoint unit, FixedPoint force)
     : laws_(laws), place_(place), synchronised_(synchronised), unit_(unit), force_(force) {
-  // Force is a power of overlap, the same for all pairs: one overlap tells the share.
+  // Force is a power of overlap, the same for all pairs: any overlap gives the share.
   constexpr double overlap = 1e-6;
   elastic_share_ = laws.normal->energy(0, overlap) / (laws.normal->force_at(0, overlap) * overlap);
 }
@@ -64,7 +64,7 @@ void Ledger::act(ContactBatch& batch, const Row& counted, double dt) {
   }
   const double half = -0.5 * dt;
   for (int c = 0; c < batch.padded(); ++c) {
-    // Within the reach of cohesion a contact that has opened is still listed; it has parted all the same.
+    // An open contact is still listed within the range of cohesion, but it has separated.
     const bool open = batch.overlap[c] <= 0;
     lost[c] = open ? if_parted[c] : half * (synchronised_ ? due[c] : before[c]) + half * now[c] - gained[c];
     due[c] = synchronised_ ? now[c] : batch.normal[c] - batch.elastic[c];
@@ -86,7 +86,7 @@ double Ledger::work_of_films(std::size_t particle, const Vector& missed) const {
   return power * force_.unit;
 }
 
-/// As the films' forces go into the loads: in whole units, the same in any order of pairs.
+/// Uses whole units as in the loads: the same in any order of pairs.
 void Ledger::add_films(const ContactBatch& batch, const Row& force, bool wall) {
   for (int c = 0; c < batch.count; ++c)
     for (std::size_t k = 0; k < 3; ++k) {

@@ -9,8 +9,8 @@ namespace polybed::dem {
 
 namespace {
 
-/// Sums that are the same in any order: each number in whole units of the greatest there is, and parts of them. Carried
-/// over once, at the end: a particle adds less than 2^31 parts, and a rank has fewer than 2^32 of them.
+/// Sums that are the same in any order: each number in whole units of the greatest one, and fractions of them. The
+/// carry is done once, at the end: a particle adds less than 2^31 fractions, and a rank has fewer than 2^32 particles.
 class Sum {
  public:
   explicit Sum(FixedPoint unit) : per_unit_(unit.per_unit) {}
@@ -27,8 +27,8 @@ class Sum {
   std::int64_t whole_ = 0, part_ = 0;
 };
 
-/// Calls for each contact that this rank counts, with its pair, its energy, of springs and of attraction, J, and the
-/// batch and row it is in.
+/// Calls see for each contact that this rank counts, with its pair, its energies of springs and of attraction, J, and
+/// its batch and row.
 template <class See>
 void each_contact(const Model& model, const Contacts& contacts, bool walls, See&& see) {
   const Images images = model.images();
@@ -53,20 +53,20 @@ void each_contact(const Model& model, const Contacts& contacts, bool walls, See&
   }
 }
 
-/// Work of a pull from the touch to the overlap at which the normal force balances it, J.
+/// Work of an attraction from first contact to the overlap at which the normal force balances it, J.
 double work_until_held(const NormalLaw& normal, int kind, double pull) {
-  constexpr double overlap = 1e-6;  // any: force is a power of it
+  constexpr double overlap = 1e-6;  // any value: force is a power of it
   const double force = normal.force_at(kind, overlap);
   const double power = force * overlap / normal.energy(kind, overlap) - 1;
   return pull * overlap * std::pow(pull / force, 1 / power);
 }
 
-/// Elastic energy and that of attraction, number and extremes of contacts that this rank counts.
+/// Adds elastic and attractive energy, number and extremes of contacts that this rank counts.
 void add_contacts(const Model& model, const Contacts& contacts, bool walls, Sum& elastic, Totals& totals) {
   const PairLaws& laws = model.laws();
   each_contact(model, contacts, walls, [&](const Contacts::Pair&, double energy, const ContactBatch& batch, int c) {
     elastic.add(energy);
-    if (batch.overlap[c] <= 0) return;  // held by cohesion across a gap
+    if (batch.overlap[c] <= 0) return;  // cohesion across a gap
     laws.each_attraction([&](const CohesionLaw& law) {
       totals.pull = std::max(totals.pull, work_until_held(*laws.normal, batch.kind[c], law.pull_off(batch.kind[c])));
     });
@@ -135,7 +135,7 @@ Totals TotalsOfRanks::totals() const {
   totals.work = units(5) * unit;
   if (model_.outflow() != nullptr) totals.carried_out = model_.outflow()->energy.units() * unit;
   if (model_.feeding() != nullptr) totals.carried_in = model_.feeding()->energy.units() * unit;
-  constexpr double sums_of_particles = 3;  // kinetic, rotational, potential: each cut to parts of a unit
+  constexpr double sums_of_particles = 3;  // kinetic, rotational, potential: each cut to fractions of a unit
   const double cut = sums_of_particles * double(model_.particle_count()) * unit / EnergySum::parts;
   totals.rounding = rounding_of_places(units(9) * unit, model_.steps()) + cut;
   totals.contacts = sums_.back();

@@ -1,4 +1,4 @@
-// What is measured of the particles as a whole.
+// Measures of all particles together.
 #pragma once
 
 #include <array>
@@ -10,44 +10,44 @@
 
 namespace polybed::dem {
 
-/// Energies, J, and the rest that history.csv tells of contacts.
+/// Energies, J, and the columns for contacts in history.csv.
 struct Totals {
   double kinetic = 0, rotational = 0;
-  double elastic = 0;         ///< of springs, and of attraction, which is negative
-  double potential = 0;       ///< against the origin of the box; 0 without gravity
+  double elastic = 0;         ///< of springs, plus the negative energy of attraction
+  double potential = 0;       ///< relative to the origin of the box; 0 without gravity
   double dissipated = 0;      ///< since the start, by dashpots and friction; 0 without dem.ledger
-  double carried_out = 0;     ///< by particles that have left, since the start; 0 where nothing can
-  double carried_in = 0;      ///< by particles that have entered, since the start; 0 where none are fed
-  double work = 0;            ///< of a fluid, or of a sheared box's flow, since the start; 0 without dem.ledger
-  std::int64_t contacts = 0;  ///< of particles with each other and with walls
+  double carried_out = 0;     ///< by particles that have left, since the start; 0 without openings
+  double carried_in = 0;      ///< by particles that have entered, since the start; 0 without feeds
+  double work = 0;            ///< by a fluid, or a sheared box's flow, since the start; 0 without dem.ledger
+  std::int64_t contacts = 0;  ///< between particles and with walls
   double max_overlap = 0;     ///< m
   double max_force = 0;       ///< N, elastic
   Vector momentum{};          ///< kg m/s
   double greatest_speed = 0;  ///< m/s
-  double pull = 0;            ///< what an attraction does from the touch to where the springs hold it, the most, J
-  double rounding = 0;        ///< of rounding_of_places(), and of what sums cut off, J
+  double pull = 0;            ///< greatest work of an attraction from first contact to balance with the springs, J
+  double rounding = 0;        ///< from rounding_of_places(), and from truncation in sums, J
 
   [[nodiscard]] double sum() const {
     return kinetic + rotational + elastic + potential + dissipated + carried_out - carried_in - work;
   }
 };
 
-/// Bound of what rounding of places can do to the potential energy in a number of steps, J: half a unit in the last
-/// place in each of them, and once more where energies are summed. It matters where nothing has moved yet: a particle
-/// that a step would move by less stays where it is, while its weight already speeds it up.
+/// Bound on the effect of rounded places on the potential energy over a number of steps, J: half a unit in the last
+/// place in each step, and once more in the sum of energies. It matters before anything has moved: a particle whose
+/// displacement in a step is below round-off stays at its place while its weight already accelerates it.
 /// \param highest  potential energy of all particles at the far end of the box, J
 [[nodiscard]] inline double rounding_of_places(double highest, std::int64_t steps) {
   constexpr double half_a_unit = 0x1p-53;
   return highest * half_a_unit * double(steps + 4);
 }
 
-/// Share of the greatest energy met that the account of energy misses beyond rounding: V5.
+/// Error of the energy balance beyond rounding, as a share of the greatest energy so far: V5.
 [[nodiscard]] inline double ledger_miss(const Totals& now, double initial_energy, double greatest_energy) {
   const double miss = std::abs(now.sum() - initial_energy) - now.rounding;
   return miss > 0 ? miss / greatest_energy : 0;
 }
 
-/// Of this rank's particles and contacts, then of all ranks' once reductions have put them together: the same on every
+/// For this rank's particles and contacts, then for all ranks' once reductions have combined them: the same on every
 /// rank, and on any number of ranks to the bit.
 class TotalsOfRanks {
  public:
@@ -57,18 +57,18 @@ class TotalsOfRanks {
   [[nodiscard]] Totals totals() const;
 
  private:
-  static constexpr std::size_t energies = 10;  ///< and momenta, each in whole units and parts of one
+  static constexpr std::size_t energies = 10;  ///< including momenta, each in whole units and fractions
   const Model& model_;
   Totals greatest_;                                    ///< overlap, force and speed
-  std::array<std::int64_t, 2 * energies + 1> sums_{};  ///< those of EnergySum, then contacts
+  std::array<std::int64_t, 2 * energies + 1> sums_{};  ///< in the order of EnergySum, then contacts
 };
 
-/// Those of all ranks. Collective.
+/// Totals over all ranks. Collective.
 [[nodiscard]] Totals totals_of(const Model& model);
 
-/// In the unit of energy: what this rank's particles that are about to leave hold, of motion, spin and gravity, and the
-/// springs of all contacts that they are in, those with particles that stay too. A contact counts where totals_of()
-/// counts it. Between steps, of a model that has an outflow.
+/// In the unit of energy: motion, spin and gravity of this rank's particles that are about to leave, and the springs of
+/// all their contacts, including those with particles that stay. A contact counts where totals_of() counts it. Call it
+/// between steps, for a model with an outflow.
 [[nodiscard]] EnergySum energy_leaving(const Model& model);
 
 }  // namespace polybed::dem

@@ -15,7 +15,7 @@ namespace polybed::dem {
 
 namespace {
 
-/// What each owned particle costs: itself and its contacts. \param own  Model::work_of_particle()
+/// Cost of each owned particle: itself and its contacts. \param own  Model::work_of_particle()
 std::vector<std::int32_t> work_of(const Particles& particles, const Contacts& pairs, const Contacts& walls,
                                   std::int32_t own) {
   std::vector<std::int32_t> work(particles.owned, own);
@@ -58,7 +58,7 @@ Model::Model(const core::Scene& scene, core::Timers& timers, std::shared_ptr<con
   if (laws_.film) laws_.film->set_step(limits_.dt);
   measure(start_);
   place(start_, std::vector<std::int32_t>(start_.size(), 1));
-  make_parts(std::vector<Particle>(std::move(start_)), fluid_by);  // which frees them
+  make_parts(std::vector<Particle>(std::move(start_)), fluid_by);  // frees them
   rebuild();
   find_forces(0);
   if (joined_work_) joined_work_->begin();
@@ -66,7 +66,7 @@ Model::Model(const core::Scene& scene, core::Timers& timers, std::shared_ptr<con
   look_ahead();
 }
 
-/// A sheared box has no room for a fluid's motion: there it is the flow.
+/// The fluid of a sheared box cannot move freely: it has the box's flow.
 void Model::make_parts(const std::vector<Particle>& all, FluidBy fluid_by) {
   const bool sheared = box_.shear_rate != 0;
   const bool fed = is_fed(scene_);
@@ -107,7 +107,7 @@ CountedEnergy Model::counted_energy() const {
   return energy;
 }
 
-/// Units of the sums over all particles.
+/// Sets the units of the sums over all particles.
 void Model::measure(const std::vector<Particle>& all) {
   double mass = 0;
   for (const Particle& p : all) mass += 1 / p.motion.inverse_mass;
@@ -115,15 +115,15 @@ void Model::measure(const std::vector<Particle>& all) {
   const double length = std::max({box_.size[0], box_.size[1], box_.size[2]});
   const double weight = std::hypot(gravity_[0], gravity_[1], gravity_[2]) * length;  // m2/s2
   const double speed = limits_.greatest_speed;
-  // What the sums may grow to: the energy of all at the greatest speed, and a reserve for what is dissipated meanwhile;
-  // a large one where gravity supplies energy without end.
+  // Range of the sums: the energy of all particles at the greatest speed, and a reserve for dissipation so far; a large
+  // one if gravity supplies energy without end.
   energy_unit_ = FixedPoint::for_sums_of(mass * (speed * speed + weight),
                                          falls_through_joined_faces(box_, gravity_) ? 0x1p30 : 1024);
   counted_speed_ = std::hypot(speed, std::sqrt(weight));
   momentum_unit_ = FixedPoint::for_sums_of(mass * speed, 1024);
 }
 
-/// Every rank knows all particles and keeps its own: the start is the same on any number of ranks.
+/// Every rank has all particles and keeps its own: the start is the same on any number of ranks.
 void Model::place(const std::vector<Particle>& all, const std::vector<std::int32_t>& work) {
   count_ = std::int64_t(all.size());
   if (ranks_) {
@@ -148,7 +148,7 @@ void Model::step(double stop) {
     rebuild();
     if (fast) shorten_step();
   }
-  constexpr std::int64_t all_timed = 64, sampled = 16;  // so many first steps, and then one of so many
+  constexpr std::int64_t all_timed = 64, sampled = 16;  // number of initial steps, and then one in this many
   timed_ = steps_ < all_timed ? 1 : (steps_ % sampled == 0 ? std::uint64_t(sampled) : 0);
   ++steps_;
   if (!held_)
@@ -163,7 +163,7 @@ void Model::step(double stop) {
   if (feeding_ && (!coupling_ || coupling_->due(steps_)) && feeding_->due(clock())) let_in();
 }
 
-/// Particles that are fed enter at the end of a step; with a fluid, of one of its steps.
+/// Fed particles enter at the end of a step; with a fluid, at the end of one of its steps.
 void Model::let_in() {
   const auto scope = timers_.scope("neighbours");
   const std::int64_t entered = feeding_->choose(*this, clock());
@@ -193,7 +193,7 @@ void Model::move(double dt) {
   if (coupling_) coupling_->turn(particles_);
 }
 
-/// Collective: tells the deepest overlap of all ranks, or which particle is too fast.
+/// Collective: reports the deepest overlap on all ranks, or the particle that is too fast.
 void Model::stop_in_trouble() const {
   const bool pair = pair_forces_.trouble().pair >= 0;
   const double urgency = pair ? 1 + pair_forces_.trouble().excess : hasty_ >= 0 ? 0.5 : beyond_units_ ? 0.25 : 0;
@@ -221,15 +221,15 @@ void Model::kick(const std::vector<Kick>& by_id) {
   look_ahead();
 }
 
-/// What the next step will need, or that there must be none: all that the ranks have to agree on.
+/// Determines the work of the next step, or that there must be none: everything that the ranks must agree on.
 void Model::look_ahead() {
   const auto scope = timers_.scope("motion", timed_);
   const double since = double(steps_ + 1 - marked_at_) * limits_.dt;
   const Verlet::Drift drift = held_ ? Verlet::Drift{} : verlet_.next_drift(particles_, since, around_);
   hasty_ = drift.hasty;
   met_ = std::max(met_, drift.speed);
-  constexpr double tolerated = 1.25;  // the time of a contact goes with the fifth root of the speed: it is no matter
-  beyond_units_ = drift.speed > 25 * counted_speed_;  // energies may grow to 1024 times what their unit is made for
+  constexpr double tolerated = 1.25;  // the duration of a contact scales with the fifth root of the speed: harmless
+  beyond_units_ = drift.speed > 25 * counted_speed_;  // energies can grow to 1024 times the design value of their unit
   const bool troubled = pair_forces_.trouble().pair >= 0 || hasty_ >= 0 || beyond_units_;
   const bool fast = drift.speed > tolerated * limits_.greatest_speed && may_shorten();
   const bool stale = list_goes_stale(drift.distance, since);
@@ -237,20 +237,20 @@ void Model::look_ahead() {
   ahead_ = Ahead(int(core::greatest_of_ranks(ranks_.get(), double(here))));
 }
 
-/// Whether the next step takes an owned particle too far for the list. \param since  it was made, after that step, s
+/// Whether the next step moves an owned particle too far for the list. \param since  age of the list after that step, s
 bool Model::list_goes_stale(double drift, double since) const {
-  // Two particles may approach from both sides, and a sheared box moves the one faster than the other.
+  // Two particles can approach from both sides, and a sheared box moves one faster than the other.
   const double flow = std::abs(box_.shear_rate) * since * (materials_.greatest_diameter() + skin_ + laws_.reach());
   return !(2 * drift + flow <= skin_);
 }
 
-/// Not where the length of a step is that of the case, or is counted in, as is the strain of a sheared box.
+/// No if the case gives the step length, or if a quantity depends on it, as the strain of a sheared box does.
 bool Model::may_shorten() const {
   if (scene_.dem.fixed_step || box_.shear_rate != 0 || held_) return false;
   return !coupling_ || coupling_->may_shorten(steps_);
 }
 
-/// From here on steps are as short as the fastest particle asks for, and a quarter faster ones. Collective.
+/// Shortens further steps to suit the fastest particle and a quarter faster ones. Collective.
 void Model::shorten_step() {
   constexpr double reserve = 1.25;
   const double met = core::greatest_of_ranks(ranks_.get(), met_);
@@ -259,7 +259,7 @@ void Model::shorten_step() {
   ++work_.shortenings;
 }
 
-/// Steps for a speed. \param began, began_at  time and number of the first of them
+/// Sets the step for a speed. \param began, began_at  time and number of the first such step
 void Model::set_step_for(double began, std::int64_t began_at, double speed) {
   began_ = began;
   began_at_ = began_at;
@@ -307,15 +307,15 @@ void Model::rebuild() {
   list_pairs(std::move(kept));
 }
 
-/// Particles that have left, of this rank.
+/// Removes this rank's particles that have left.
 void Model::take_out() {
   if (coupling_) coupling_->let_go(*outflow_, particles_);
   outflow_->take_out(particles_);
 }
 
-/// Moves particles to their owners and finds anew who is near whom; contacts go with their particles.
+/// Moves particles to their owners and rebuilds the list of pairs; contacts move with their particles.
 void Model::list_pairs(KeptContacts kept) {
-  std::vector<double>().swap(pairs_.memory);  // room for what is made meanwhile
+  std::vector<double>().swap(pairs_.memory);  // frees memory for the rebuild
   particles_.resize(particles_.owned);
   if (coupling_) coupling_->send_ahead(exchange_, particles_);
   exchange_.migrate(particles_, kept);
@@ -336,7 +336,7 @@ void Model::list_pairs(KeptContacts kept) {
   work_.candidates += search_.candidates();
 }
 
-/// Forces that need no ghost are found while the ghosts are on their way.
+/// Computes forces that need no ghost while the ghosts are in transit.
 void Model::find_forces(double dt) {
   const Images now = images();
   const std::uint64_t ghosts_timed = ranks_ ? timed_ : 0;

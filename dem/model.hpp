@@ -1,4 +1,4 @@
-// The particle model as something that can be run: it owns the particles, their contacts, and the step.
+// The particle model, ready to run: it owns the particles, their contacts, and the step.
 #pragma once
 
 #include <memory>
@@ -33,39 +33,39 @@
 
 namespace polybed::dem {
 
-/// What the model has done so far on all ranks; repeats exactly from run to run and on any number of ranks, but for
-/// what pairs across ranks add and how the box was cut.
+/// Work done so far on all ranks; repeats exactly from run to run and on any number of ranks, except for pairs across
+/// ranks and the division of the box.
 struct Work {
   std::uint64_t steps = 0, particle_steps = 0, pair_checks = 0, contact_steps = 0, rebuilds = 0, candidates = 0;
   std::uint64_t cuts = 0;         ///< of the box among the ranks, after the first
-  std::uint64_t shortenings = 0;  ///< of the step, by particles faster than expected
-  double greatest_speed = 0;      ///< met since the start, against a sheared box's own flow, m/s
-  double imbalance = 1;           ///< greatest over mean work of the ranks when the list was last made
+  std::uint64_t shortenings = 0;  ///< of the step, because of particles faster than expected
+  double greatest_speed = 0;      ///< since the start, relative to a sheared box's own flow, m/s
+  double imbalance = 1;           ///< greatest over mean work of the ranks at the last rebuild of the list
 };
 
-/// Energies counted since the start, of one rank, in the unit of energy.
+/// Counted energies since the start, on one rank, in the unit of energy.
 struct CountedEnergy {
   EnergySum dissipated;   ///< in contacts
   EnergySum fluid_work;   ///< of a fluid on the particles
-  EnergySum joined_work;  ///< of joined faces, of a sheared box or along gravity
+  EnergySum joined_work;  ///< by joined faces, of a sheared box or along gravity
 };
 
-/// Who solves for the fluid of a scene that has one.
+/// The solver for a scene's fluid.
 enum class FluidBy {
   model,  ///< averaged, coupled to the particles
-  caller  ///< resolved between them: it gives each its impulses by kick(), and films stay
+  caller  ///< resolved between them: it adds impulses with kick(), and films stay
 };
 
-/// Of one particle, m/s and rad/s.
+/// Kick of one particle, m/s and rad/s.
 struct Kick {
   Vector dv{}, dw{};
 };
 
 class Model : public core::Simulation {
  public:
-  /// The scene's particles at their start; throws core::CaseError for what cannot be built. Collective, as are step,
-  /// restart, checkpoint and resume.
-  /// \param ranks  that share the box; null: it is all here  \param resolved_gap  of the caller's fluid, as of
+  /// The scene's particles at their start; throws core::CaseError for parts that cannot be created. Collective, like
+  /// step, restart, checkpoint and resume.
+  /// \param ranks  that share the box; null: it is all here  \param resolved_gap  for the caller's fluid, as in
   /// make_pair_laws()
   Model(const core::Scene& scene, core::Timers& timers, std::shared_ptr<const core::Ranks> ranks = nullptr,
         FluidBy fluid_by = FluidBy::model, double resolved_gap = 0);
@@ -73,33 +73,32 @@ class Model : public core::Simulation {
   Model& operator=(const Model&) = delete;
   ~Model() override = default;
 
-  /// The nearest step to a time asked for counts as being there.
+  /// A time is reached with the nearest step to it.
   [[nodiscard]] double time() const override { return reported_; }
-  /// One step of dt, to the time nearest to `stop` that steps of one length meet.
+  /// One step of dt, towards the time nearest to `stop` that steps of one length reach.
   void step(double stop) override;
-  /// The state is that of the last step: observers read times not more than a step old.
+  /// The state is at the last step: observers read times at most a step old.
   void show(double) override {}
   [[nodiscard]] bool shows_inside_steps() const override { return false; }
-  /// Lists the pairs anew, as a run taken up again does: both then have the same bits.
+  /// Rebuilds the list of pairs, as a resumed run does: both then have the same bits.
   void restart() override;
 
-  /// All particles and contacts, to the bit, on the first rank; it does not depend on how many ranks there are.
+  /// All particles and contacts, to the bit, on the first rank; independent of the number of ranks.
   [[nodiscard]] core::Checkpoint checkpoint() const;
-  /// The same for a file in two parts: all but the rows of particles and contacts, and those rows, which are made from
-  /// the state while they are written.
+  /// The same for a file in two parts: all except the rows of particles and contacts, and those rows, which are
+  /// computed from the state while they are written.
   [[nodiscard]] core::Checkpoint checkpoint_but_rows() const;
   [[nodiscard]] std::vector<core::BlockData> rows() const;
-  /// Changes the velocities of each species, between steps, as a body force on it for a while would: what drives
-  /// species
+  /// Changes the velocities of each species, between steps, as a body force over some time would: it drives species
   /// apart in a box. Collective. \param dv  by species, m/s
   void push(const std::vector<Vector>& dv);
-  /// Changes velocity and spin of each particle, between steps, as an impulse on it does. On one rank. \param by_id
+  /// Changes velocity and spin of each particle, between steps, as an impulse would. On one rank. \param by_id
   void kick(const std::vector<Kick>& by_id);
-  /// Ghosts as their owners are now: since the forces of the last step they have moved on by half a step. Collective.
+  /// Updates ghosts from their owners, which have moved half a step since the last forces. Collective.
   void refresh_ghosts();
-  /// Takes a run up again, on any number of ranks; only the first rank's checkpoint is read.
+  /// Resumes a run, on any number of ranks; reads only the first rank's checkpoint.
   void resume(const core::Checkpoint& checkpoint) { restore(checkpoint, true); }
-  /// Begins at time 0 from the particles of a checkpoint.
+  /// Starts at time 0 from the particles in a checkpoint.
   void start_from(const core::Checkpoint& checkpoint);
 
   [[nodiscard]] const Particles& particles() const { return particles_; }
@@ -109,26 +108,26 @@ class Model : public core::Simulation {
   [[nodiscard]] const PairLaws& laws() const { return laws_; }
   [[nodiscard]] const PairForces& pair_forces() const { return pair_forces_; }
   [[nodiscard]] const Box& box() const { return box_; }
-  /// Of the step as it is now: it becomes shorter where particles turn out faster than expected.
+  /// For the present step, which becomes shorter if particles are faster than expected.
   [[nodiscard]] const StepLimits& limits() const { return limits_; }
-  /// Speeds expected before the run, and what they do to contacts.
+  /// Speeds expected before the run, and their effect on contacts.
   [[nodiscard]] const Speeds& expected() const { return expected_; }
   [[nodiscard]] const OverlapForecast& overlap_expected() const { return overlap_; }
   [[nodiscard]] const core::Ranks* ranks() const { return ranks_.get(); }
   [[nodiscard]] const std::shared_ptr<const core::Ranks>& share() const { return ranks_; }
-  /// Of a sheared box with drag; null where there is none.
+  /// Drag of a sheared box; null without it.
   [[nodiscard]] const AffineDrag* affine_drag() const { return sheared_.get(); }
-  /// With the fluid; null where there is none.
+  /// Coupling with the fluid; null without one.
   [[nodiscard]] const Coupling* coupling() const { return coupling_.get(); }
   [[nodiscard]] Vector gravity() const { return gravity_; }
   [[nodiscard]] bool synchronised() const { return verlet_.synchronised(); }
   /// In the box now.
   [[nodiscard]] std::int64_t particle_count() const { return count_; }
-  /// Null where nothing is fed.
+  /// Null without feeds.
   [[nodiscard]] const Feeding* feeding() const { return feeding_.get(); }
-  /// Null where nothing can leave.
+  /// Null without openings.
   [[nodiscard]] const Outflow* outflow() const { return outflow_.get(); }
-  /// Where the images of the particles are now.
+  /// Present positions of the particles' images.
   [[nodiscard]] Images images() const { return {box_, clock(), double(steps_ - marked_at_) * limits_.dt}; }
   [[nodiscard]] std::int64_t steps() const { return steps_; }
   /// Collective.
@@ -139,7 +138,7 @@ class Model : public core::Simulation {
   /// Units of the energies and momenta of all particles together.
   [[nodiscard]] FixedPoint energy_unit() const { return energy_unit_; }
   [[nodiscard]] FixedPoint momentum_unit() const { return momentum_unit_; }
-  /// Of this rank.
+  /// On this rank.
   [[nodiscard]] CountedEnergy counted_energy() const;
 
  private:
@@ -159,7 +158,7 @@ class Model : public core::Simulation {
   void take_out();
   void list_pairs(KeptContacts kept);
   void find_forces(double dt);
-  /// Time that the state belongs to, s.
+  /// Time of the state, s.
   [[nodiscard]] double clock() const { return began_ + double(steps_ - began_at_) * limits_.dt; }
   [[noreturn]] void stop_in_trouble() const;
   void wrap();
@@ -171,20 +170,20 @@ class Model : public core::Simulation {
   Box box_;
   Materials materials_;
   PairLaws laws_;
-  std::vector<Particle> start_;  ///< of all ranks; gone once they are at home
+  std::vector<Particle> start_;  ///< of all ranks; freed after distribution
   Speeds expected_;
   StepLimits limits_;
   OverlapForecast overlap_;
   Vector gravity_;
   FixedPoint force_unit_, torque_unit_, energy_unit_, momentum_unit_;
-  // What only some scenes have; null: absent.
+  // Optional parts; null: absent.
   std::unique_ptr<Feeding> feeding_;
   std::unique_ptr<Outflow> outflow_;
   std::unique_ptr<Ledger> ledger_;
   std::unique_ptr<JoinedWork> joined_work_;
   std::unique_ptr<AffineDrag> sheared_;  ///< drag of a sheared box
   std::unique_ptr<Coupling> coupling_;   ///< with the fluid
-  std::vector<KeptPart*> kept_;          ///< the parts above that exist
+  std::vector<KeptPart*> kept_;          ///< the existing parts among those above
   Around around_;
   bool held_;  ///< the particles do not move
   double skin_;
@@ -197,15 +196,15 @@ class Model : public core::Simulation {
   double reported_ = 0;  ///< s
   double began_ = 0;     ///< time of the first step of the present length, s
   std::int64_t steps_ = 0, count_ = 0, marked_at_ = 0;
-  std::int64_t began_at_ = 0;  ///< steps before it
-  double met_ = 0;             ///< greatest speed of the particles of this rank so far, m/s
-  /// What all ranks have found for the next step: its drift is too far for the list, a particle is too fast for its
-  /// length, or something is wrong.
+  std::int64_t began_at_ = 0;  ///< number of steps before it
+  double met_ = 0;             ///< greatest speed of this rank's particles so far, m/s
+  /// Finding of all ranks for the next step: its drift is too far for the list, a particle is too fast for its length,
+  /// or there is an error.
   enum class Ahead { clear, stale, fast, trouble } ahead_ = Ahead::clear;
-  std::int64_t hasty_ = -1;    ///< id of an owned particle that would move too far in it, or none
-  bool beyond_units_ = false;  ///< one is faster than energies are counted for
-  double counted_speed_ = 0;   ///< of all mass at it, the energy that their unit is made for, m/s
-  std::uint64_t timed_ = 1;    ///< steps that the clock's answer in this one stands for: it costs a system call
+  std::int64_t hasty_ = -1;    ///< id of an owned particle that would move too far in it, or -1
+  bool beyond_units_ = false;  ///< a particle is faster than the unit of energy allows
+  double counted_speed_ = 0;   ///< speed of all mass for which the unit of energy is made, m/s
+  std::uint64_t timed_ = 1;    ///< steps that the timing of this one represents: reading the clock is a system call
   Work work_;
 };
 

@@ -1,4 +1,4 @@
-// The particle model in checkpoints: all of its state, written and taken up again.
+// The particle model in checkpoints: writes and restores its complete state.
 #include <algorithm>
 
 #include "core/error.hpp"
@@ -39,7 +39,7 @@ core::Checkpoint Model::checkpoint_but_rows() const {
 
 void Model::start_from(const core::Checkpoint& checkpoint) {
   restore(checkpoint, false);
-  // Walls and materials need not be those of the checkpoint: what touches, and how hard, is found anew.
+  // Walls and materials can differ from the checkpoint's: contacts and their forces are recomputed.
   std::fill(particles_.load.begin(), particles_.load.end(), Load{});
   find_forces(0);
   if (ledger_) ledger_->begin_from_other();
@@ -47,7 +47,7 @@ void Model::start_from(const core::Checkpoint& checkpoint) {
   if (coupling_) coupling_->begin_from_other(particles_);
 }
 
-/// On the first rank: what else than particles and contacts has to fit this model.
+/// On the first rank: checks data besides particles and contacts against this model.
 Clock Model::checked_clock(const core::Checkpoint& checkpoint, bool same_run) const {
   core::require_numbers(checkpoint);
   const Clock clock = read_clock(checkpoint, limits_.greatest_speed, box_.shear_rate);

@@ -38,8 +38,8 @@ std::vector<std::string> profile_names(const Model& model, const measures::Slabs
   return names;
 }
 
-/// Weight of the particles less the weight of the fluid that they displace, each over the cross-section at its height,
-/// Pa. In a tapered column this is what the fluid must carry: the walls bear the rest, or press from above.
+/// Weight of the particles minus the weight of the displaced fluid, each over the cross-section at its height, Pa. In a
+/// tapered column this is the load on the fluid: the walls carry the rest, or press from above.
 double weight_of(const Model& model, const measures::Bed& bed, double area) {
   double weight = 0;
   for (std::size_t j = 0; j < bed.mass.size(); ++j) {
@@ -69,7 +69,7 @@ measures::Slabs slabs_of(const Model& model, const core::Column& column) {
   return slabs;
 }
 
-/// What fixes the units of the sums over particles: of this rank's, of all once a reduction has put them together.
+/// Values that set the units of the sums over particles: for this rank, or for all after a reduction.
 struct Greatest {
   measures::ParticleExtremes of;
   double height = 0;  ///< m
@@ -88,7 +88,7 @@ Greatest greatest_of(const Model& model) {
   const double image_speed = std::abs(model.box().image_speed());
   for (std::size_t i = 0; i < particles.owned; ++i) {
     Vector v = particles.motion[i].v;
-    v[0] = std::abs(v[0]) + image_speed;  // of the faster image
+    v[0] = std::abs(v[0]) + image_speed;  // for the faster image
     most.of.add(volume[std::size_t(particles.species[i])], v);
     most.height = std::max(most.height, std::abs(particles.place[i].x[1]));
   }
@@ -96,11 +96,11 @@ Greatest greatest_of(const Model& model) {
   return most;
 }
 
-/// The bed of particles as a profile, summed by every rank over its own particles: nothing is gathered. Once a
-/// reduction has put the sums together the same on every rank, and on any number of ranks to the bit.
+/// The bed of particles as a profile; every rank sums over its own particles, and nothing is gathered. After a
+/// reduction it is the same on every rank, and on any number of ranks to the bit.
 class BedSums {
  public:
-  /// \param most  of all ranks
+  /// \param most  over all ranks
   BedSums(const Model& model, const measures::Slabs& slabs, const Greatest& most)
       : slabs_(slabs),
         species_(model.materials().species().size()),
@@ -125,7 +125,7 @@ class BedSums {
   }
 
   [[nodiscard]] measures::ParticleProfile profile() const { return particle_profile(sums_, species_, slabs_); }
-  /// Of particles of each species.
+  /// Number of particles of each species.
   [[nodiscard]] const std::vector<std::int64_t>& number() const { return number_; }
   /// Mean height of the centres of each species, m.
   [[nodiscard]] std::vector<std::optional<double>> centre() const {
@@ -206,7 +206,7 @@ void Observers::write_history(double time) {
       .profile = sums.profile().solids, .time = time, .step = model_.limits().dt, .centre = sums.centre()};
   for (std::size_t j = 0; j < number.size(); ++j)
     bed.mass.push_back(double(number[j]) * model_.materials().species()[j].mass);
-  // Without a fluid nothing carries the bed but its bottom: there is no pressure drop.
+  // Without a fluid only the bottom carries the bed: there is no pressure drop.
   bed.pressure_drop = fluid_ ? fluid_->pressure_drop() : 0;
   bed.buoyant_weight = weight_of(model_, bed, slabs_.area);
   core::on_first(model_.ranks(), [&] {
@@ -229,7 +229,7 @@ Told Observers::told(double most_solids) const {
   return told;
 }
 
-/// Each rank its share, piece by piece.
+/// Each rank writes its share, piece by piece.
 void Observers::write_all_particles(double time) {
   const Particles& particles = model_.particles();
   core::on_all(model_.ranks(), [&] {

@@ -20,28 +20,28 @@
 
 namespace polybed::dem {
 
-// Collective, all of these.
+// All of these are collective.
 class Observers {
  public:
-  /// Starts the files of a run directory, or goes on with them from a time.
-  /// \param start  what the laws are checked against; empty: the state now
-  /// \param fluid  what the fluid of a run that goes on had taken before; the first rank's counts
+  /// Starts the files in a run directory, or continues them from a time.
+  /// \param start  reference for the laws; empty: the present state
+  /// \param fluid  totals of a continued run's fluid; the first rank's count
   Observers(const Model& model, const core::Scene& scene, const std::filesystem::path& directory,
             std::optional<RunStart> start, const FluidTotals& fluid, std::optional<double> resume_time);
 
-  /// After each step.
+  /// Call it after each step.
   void see_step();
 
   /// One row of history.csv; also measures the invariants.
   void write_history(double time);
   /// Makes the rows of history.csv survive a power cut.
   void flush();
-  /// Takes up what the run that this one goes on with has met.
+  /// Restores the worst values of the run that this one continues.
   void recall(const core::Json& past) { invariants_.recall(past); }
   /// One row of profiles.h5, one step of particles.h5 and, with a fluid, of fields.h5.
   void write_particles(double time);
 
-  /// Of the last row of the history.
+  /// From the last row of the history.
   [[nodiscard]] const Totals& totals() const { return totals_; }
   [[nodiscard]] std::optional<double> bed_height() const { return bed_height_; }
   [[nodiscard]] const Invariants& invariants() const { return invariants_; }
@@ -49,7 +49,7 @@ class Observers {
   [[nodiscard]] const FluidRecord* fluid() const { return fluid_ ? &*fluid_ : nullptr; }
 
  private:
-  /// What the first rank has open.
+  /// Files that the first rank has open.
   struct Files {
     core::HistoryWriter history;
     core::ProfileWriter profiles;
@@ -62,7 +62,7 @@ class Observers {
   const Model& model_;
   measures::Slabs slabs_;
   measures::History<Told> history_;
-  std::optional<FluidRecord> fluid_;  ///< absent: there is no fluid
+  std::optional<FluidRecord> fluid_;  ///< absent without a fluid
   std::unique_ptr<Files> files_;
   core::ParticleWriter particles_;
   Totals totals_;

@@ -1,4 +1,4 @@
-// Particles that leave the box: counted while their contacts are still known, then taken out.
+// Particles that leave the box: counted while their contacts still exist, then removed.
 #include "dem/outflow.hpp"
 
 #include <algorithm>
@@ -17,8 +17,8 @@ Outflow::Outflow(const Box& box, const Materials& materials)
 
 std::int64_t Outflow::all() const { return std::accumulate(number.begin(), number.end(), std::int64_t(0)); }
 
-/// A force on a particle that stays, from one that leaves, still acts for the half step that is due: what that does is
-/// not taken back, and is part of the integration's error in the ledger.
+/// The force of a leaving particle on one that stays still acts for half a step: this is not undone and is part of the
+/// integration error in the ledger.
 std::int64_t Outflow::count_leaving(const Model& model) {
   const Particles& particles = model.particles();
   std::vector<std::int64_t> leave(number.size(), 0);
@@ -35,7 +35,7 @@ std::int64_t Outflow::count_leaving(const Model& model) {
   return leaving;
 }
 
-/// Ghosts go as well; the lists of pairs and all that is told by places in them are void then.
+/// Removes ghosts too; the lists of pairs and all indices of particles are then invalid.
 void Outflow::take_out(Particles& particles) {
   std::size_t staying = 0;
   for (std::size_t i = 0; i < particles.owned; ++i)
@@ -51,7 +51,7 @@ void Outflow::write(core::Checkpoint& checkpoint, const Particles&, const core::
   checkpoint.integers["outflow_energy_part"] = energy.part();
 }
 
-/// From a run that nothing can leave none has left, nor at the start of another.
+/// Without openings in the checkpoint's run, or at the start of another run, none has left.
 void Outflow::read(const Restored& from) {
   std::vector<std::int64_t> numbers(number.size() + 3, 0);
   const core::Checkpoint& checkpoint = from.checkpoint;
@@ -66,7 +66,7 @@ void Outflow::read(const Restored& from) {
     numbers.end()[-2] = checkpoint.integer("outflow_energy");
     numbers.end()[-1] = checkpoint.integer("outflow_energy_part");
   });
-  // Others have zeros: a sum is what the first has.
+  // Others have zeros: the sum is the first rank's value.
   core::add_over_ranks(from.ranks, numbers);
   std::copy_n(numbers.begin(), number.size(), number.begin());
   steps = numbers.end()[-3];

@@ -1,4 +1,4 @@
-// What has left the box: through an opening in its bottom or a side, or through its open top.
+// Particles that have left the box: through an opening in its bottom or a side, or through its open top.
 #pragma once
 
 #include <algorithm>
@@ -15,18 +15,17 @@ namespace polybed::dem {
 
 class Model;
 
-/// Particles are taken out when the list of pairs is made anew: once they lie a largest diameter below the bottom, or
+/// Particles are removed when the list of pairs is rebuilt: once they are a largest diameter below the bottom, or
 /// wholly beyond the top or a side, or have rolled round the rim of an opening in a side. The same on every rank, and
 /// on any number of ranks to the bit.
 class Outflow final : public KeptPart {
  public:
-  /// Of a box with openings.
+  /// For a box with openings.
   Outflow(const Box& box, const Materials& materials);
 
   std::vector<std::int64_t> number;  ///< of each species, since the start
-  std::int64_t steps = 0;            ///< that all of them took together before they left
-  /// What they took with them, in the unit of energy: of motion, spin and gravity, and in the springs of all contacts
-  /// that they were in.
+  std::int64_t steps = 0;            ///< step numbers at their exit, summed over them
+  /// Their energy at exit, in the unit of energy: motion, spin and gravity, and the springs of all their contacts.
   EnergySum energy;
 
   [[nodiscard]] bool takes(const Place& place) const {
@@ -39,7 +38,7 @@ class Outflow final : public KeptPart {
   /// Particles of all species.
   [[nodiscard]] std::int64_t all() const;
 
-  /// While contacts are still known: how many particles are about to leave, of all ranks. Collective.
+  /// Number of particles about to leave, on all ranks, while contacts still exist. Collective.
   std::int64_t count_leaving(const Model& model);
   void take_out(Particles& particles);
   void write(core::Checkpoint& checkpoint, const Particles& particles, const core::Ranks* ranks) const override;

@@ -21,7 +21,7 @@ std::string pressure_text(double pascals) {
   return fmt::format("{:.3g} {}", pascals / unit, name);
 }
 
-/// The key that gives the modulus of a species or "wall" in contact with another.
+/// The key for the modulus of a species or "wall" in contact with another.
 std::string key_of_modulus(const core::Scene& scene, const std::string& name, const std::string& partner) {
   const std::vector<std::string> two{name, partner};
   for (const core::ContactPair& pair : scene.contact_pairs)
@@ -61,8 +61,8 @@ std::string stiffer(const core::Scene& scene, const std::string& a, const std::s
   return second == first || a == b ? one : one + " and " + text(second, given.second.youngs_modulus);
 }
 
-/// m, at which the springs have taken an energy, J, and the work of a pull, N, on the way there: m. Bisection between
-/// the overlap without the pull and one at which the springs hold both.
+/// Overlap, m, at which the springs have absorbed an energy, J, and the work of an attraction, N, on the way. Bisection
+/// between the overlap without the attraction and one at which the springs balance both.
 double overlap_with_pull(const NormalLaw& law, int kind, double without, double pull) {
   const double energy = law.energy(kind, without);
   const auto left = [&](double overlap) { return energy + pull * overlap - law.energy(kind, overlap); };
@@ -82,7 +82,7 @@ double stiffening(const NormalLaw& law, int kind, double overlap, double allowed
 
 OverlapForecast overlap_forecast(const core::Scene& scene, const Materials& materials, const PairLaws& laws,
                                  double speed, Met met) {
-  constexpr double used = 0.8;  // of what is allowed
+  constexpr double used = 0.8;  // share of the limit
   const NormalLaw& law = *laws.normal;
   OverlapForecast worst;
   const auto& species = materials.species();
@@ -96,7 +96,7 @@ OverlapForecast overlap_forecast(const core::Scene& scene, const Materials& mate
         mass = met == Met::single
                    ? std::max(mass, species[b].mass)
                    : closures::mass_on_a_contact(mass, species[a].radius, species[b].mass, species[b].radius);
-      // The same energy as an impact of the reduced mass.
+      // The same energy as in an impact with the reduced mass.
       double pull = 0, overlap = law.overlap_of_impact(kind, speed * std::sqrt(mass / pair.mass));
       laws.each_attraction([&](const CohesionLaw& attraction) { pull += attraction.pull_off(kind); });
       const double allowed = 2 * pair.least_radius * scene.dem.max_overlap, aimed = used * allowed;

@@ -17,13 +17,13 @@ namespace polybed::dem {
 
 namespace {
 
-/// Solids fraction that random particles are pushed apart to in short time; a denser bed has to settle.
+/// Solids fraction to which random particles are pushed apart quickly; a denser bed must settle.
 constexpr double loose = 0.55;
 
 enum Sequence : std::uint64_t { speed_x = 3, speed_y, speed_z };
 
-/// Of the least diameter: the largest gap at which pairs are held at first. Of gaps up to 0.15, 0.2 and 0.25 this one
-/// comes nearest to a fluid of hard spheres at a fraction of 0.5.
+/// Over the least diameter: the largest initial gap of pairs. Among gaps up to 0.15, 0.2 and 0.25 this one comes
+/// nearest to a fluid of hard spheres at a fraction of 0.5.
 constexpr double gap = 0.2;
 
 Particle particle(const Materials& materials, std::int32_t species, std::int64_t id) {
@@ -45,20 +45,20 @@ std::vector<Particle> listed(const core::Scene& scene, const Materials& material
   return particles;
 }
 
-/// Particles that are mixed with each other at the start: how many of each species, and where.
+/// Particles mixed with each other at the start: numbers of each species, and their region.
 struct Group {
   std::vector<std::int64_t> numbers;
   Region region;
 };
 
-/// Height above which the particles are placed, m: the top of the walls inside.
+/// Height above which the particles are placed, m: the top of the inner walls.
 double floor_of(const core::Scene& scene) {
   double top = 0;
   for (const core::InnerWall& wall : scene.walls) top = std::max({top, wall.from[1], wall.to[1]});
   return top;
 }
 
-/// Of each species in a part of the bed.
+/// Numbers of each species in a part of the bed.
 std::vector<std::int64_t> numbers_in(const core::BedPart& part, const Materials& materials,
                                      const core::Column& column) {
   const double area = part.area() * column.cross_section();
@@ -68,13 +68,13 @@ std::vector<std::int64_t> numbers_in(const core::BedPart& part, const Materials&
   return numbers;
 }
 
-/// Solids fraction that the particles of a part are placed at.
+/// Initial solids fraction of a part's particles.
 double start_fraction(const core::BedPart& part) {
   return part.solids_fraction > 0 ? std::min(loose, part.solids_fraction) : loose;
 }
 
-/// Height that particles fill over a part's area at the solids fraction of the start, m; in a tapered column if it were
-/// as wide as at the bottom.
+/// Height of particles over a part's area at the initial solids fraction, m; in a tapered column as if it were as wide
+/// as at the bottom.
 double height_of(const std::vector<std::int64_t>& numbers, const core::BedPart& part, const Materials& materials,
                  const core::Column& column) {
   const double area = part.area() * column.cross_section();
@@ -85,8 +85,8 @@ double height_of(const std::vector<std::int64_t>& numbers, const core::BedPart& 
   return height;
 }
 
-/// The groups of a bed, each as high as the volume of its particles needs; at random, or from a checkpoint: in all of
-/// the box.
+/// The groups of a bed, each as high as the volume of its particles needs; at random or from a checkpoint, one in the
+/// whole box.
 std::vector<Group> groups_of(const core::Scene& scene, const Materials& materials, const Box& box) {
   const std::vector<core::BedPart> parts = core::start_parts(scene);
   std::vector<Group> groups;
@@ -100,7 +100,7 @@ std::vector<Group> groups_of(const core::Scene& scene, const Materials& material
   std::vector<core::Extent> extents = core::stacked(parts, height);
   for (core::Extent& one : extents)
     one = {column.filled_height(below + one.low), column.filled_height(below + one.high)};
-  // Those of a checkpoint come from anywhere in the box and take the places of these.
+  // Particles from a checkpoint can be anywhere in the box and replace these.
   if (scene.bed.start.kind == core::StartKind::random || scene.bed.start.kind == core::StartKind::checkpoint)
     extents.assign(parts.size(), {floor, box.size[1]});
   for (std::size_t n = 0; n < parts.size(); ++n) {
@@ -113,14 +113,14 @@ std::vector<Group> groups_of(const core::Scene& scene, const Materials& material
   return groups;
 }
 
-/// Of the groups, m.
+/// Top of the groups, m.
 double top_of(const std::vector<Group>& groups) {
   double top = 0;
   for (const Group& group : groups) top = std::max(top, group.region.high[1]);
   return top;
 }
 
-/// Velocities of a granular temperature, without net momentum.
+/// Sets velocities of a granular temperature, without net momentum.
 void set_in_motion(std::vector<Particle>& particles, double speed, std::uint64_t seed) {
   if (speed <= 0 || particles.empty()) return;
   Vector momentum{};
@@ -136,8 +136,8 @@ void set_in_motion(std::vector<Particle>& particles, double speed, std::uint64_t
     for (std::size_t k = 0; k < 3; ++k) p.motion.v[k] -= momentum[k] / mass;
 }
 
-/// The flow of a sheared box at the start, with the spin of its vorticity: friction alone would need tens of strains
-/// for that where contacts are few, and meanwhile its torque is part of the stress.
+/// Sets the flow of a sheared box at the start, with the spin of its vorticity: friction alone would need tens of
+/// strains if contacts are few, and its torque would be part of the stress until then.
 void shear(std::vector<Particle>& particles, double rate) {
   for (Particle& p : particles) {
     p.motion.v[0] += rate * p.place.x[1];
@@ -145,7 +145,7 @@ void shear(std::vector<Particle>& particles, double rate) {
   }
 }
 
-/// Returns what push_apart() does. \param group  of each particle
+/// Returns the result of push_apart(). \param group  of each particle
 double place_without_overlap(std::vector<Particle>& particles, const std::vector<std::int32_t>& group,
                              const std::vector<Group>& groups, const Box& box, const Materials& materials,
                              std::uint64_t seed) {
@@ -171,7 +171,7 @@ double place_without_overlap(std::vector<Particle>& particles, const std::vector
   return 0;
 }
 
-/// Why the particles of a group have no room in it; empty if they have.
+/// Why the particles of a group do not fit in it; empty if they do.
 std::string no_room_in(const Group& group, const Materials& materials, const Box& box) {
   const Vector &low = group.region.low, &high = group.region.high;
   for (std::size_t j = 0; j < group.numbers.size(); ++j) {

@@ -1,4 +1,4 @@
-// The particles of one rank: first those it owns, then ghosts, copies of others' particles near its own. One record per
+// The particles on one rank: first those it owns, then ghosts, copies of others' particles near its own. One record per
 // use, so that a force reads few cache lines.
 #pragma once
 
@@ -12,12 +12,12 @@ namespace polybed::dem {
 using Vector = std::array<double, 3>;
 
 struct alignas(32) Place {
-  Vector x;       ///< centre, m; of periodic directions within the box, give or take the skin
+  Vector x;       ///< centre, m; along periodic directions within the box, up to the skin
   double radius;  ///< m
 };
 
 struct alignas(64) Motion {
-  Vector v;                ///< m/s; during a force, at the time that the integrator gives it
+  Vector v;                ///< m/s; during a force, at the integrator's time
   double inverse_mass;     ///< 1/kg
   Vector w;                ///< spin, rad/s
   double inverse_inertia;  ///< 1/(kg m2)
@@ -28,7 +28,7 @@ struct Load {
   std::array<std::int64_t, 3> force{}, torque{};
 };
 
-/// All of one particle, as it moves between ranks.
+/// All data of one particle, for moves between ranks.
 struct Particle {
   Place place;
   Motion motion;
@@ -39,7 +39,7 @@ struct Particle {
 };
 
 struct Particles {
-  std::size_t owned = 0;         ///< the rest are ghosts, without loads
+  std::size_t owned = 0;         ///< number of owned particles; the rest are ghosts, without loads
   std::vector<std::int64_t> id;  ///< 0, 1, ... over all ranks
   std::vector<std::int32_t> species;
   std::vector<Place> place;
@@ -62,7 +62,7 @@ struct Particles {
     motion[i] = p.motion;
     load[i] = p.load;
   }
-  /// Moves the n-th of an order to place n: column by column, so that only one is copied at a time.
+  /// Moves the n-th of an order to place n: column by column, so that only one column is copied at a time.
   void arrange(const std::vector<std::int32_t>& order) {
     const auto move = [&](auto& column) {
       const auto before = column;

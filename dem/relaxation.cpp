@@ -1,4 +1,4 @@
-// Random particles pushed apart until none overlap.
+// Pushes random particles apart until none overlap.
 #include "dem/hard_spheres.hpp"
 
 #include <algorithm>
@@ -12,21 +12,21 @@ namespace polybed::dem {
 
 namespace {
 
-/// How often pairs are listed, and how often they are pushed by each list, with gaps.
+/// Number of listings of pairs, and of pushes per listing, with gaps.
 constexpr int listings = 3, rounds = 20;
-/// Likewise after that, at most.
+/// The same limits for the second phase, without gaps.
 constexpr int last_listings = 1000, last_rounds = 5;
-/// Overlap that is left where gaps cannot be had, over the smaller radius; and after how many listings that will do.
+/// Remaining overlap if gaps are impossible, over the smaller radius; and the listings after which it is accepted.
 constexpr double left_over = 1e-3;
 constexpr int patience = 20;
 
 struct Push {
   std::int32_t first, second, image;
-  float share, distance;  ///< of the way that the first goes; m, wanted between the centres
+  float share, distance;  ///< of the displacement for the first; m, wanted between the centres
 };
 
-/// The listed pairs, each with the distance that its radii and its number ask for. Pairs of one particle follow each
-/// other in the list; here they stand apart, so that no push has to wait for the one before.
+/// The listed pairs, each with the distance for its radii and its number. Pairs of one particle are adjacent in the
+/// list; here they are separated, so that no push waits for the previous one.
 template <class Distance>
 void fill(std::vector<Push>& pushes, const HardSpheres& spheres, const Distance& distance) {
   constexpr std::size_t side = 32;
@@ -44,7 +44,7 @@ void fill(std::vector<Push>& pushes, const HardSpheres& spheres, const Distance&
   for (std::size_t n = blocks * side * side; n < pairs.size(); ++n) add(n);
 }
 
-/// Two centres at one place part upward.
+/// Two coinciding centres separate upward.
 void push(Place& a, Place& b, const Vector& d, const Push& p) {
   const double r = std::sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]), way = double(p.distance) - r;
   const Vector normal = r > 0 ? Vector{d[0] / r, d[1] / r, d[2] / r} : Vector{0, 1, 0};
@@ -93,7 +93,7 @@ double push_apart(HardSpheres& spheres, double gap) {
     spheres.list(1.5 * gap);
     overlap = spheres.greatest_overlap();
     if (overlap <= (n < patience ? 0 : left_over)) return 0;
-    // A little further than need be, so that the last overlaps end soon.
+    // A little further than needed, so that the last overlaps end soon.
     const double more = 1 + (n < patience ? 0.02 : 1.5 * left_over);
     fill(pushes, spheres, [&](const Contacts::Pair& pair) { return more * touching(spheres, pair); });
     for (int round = 0; round < last_rounds; ++round) push_all(spheres, pushes);

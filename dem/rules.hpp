@@ -1,4 +1,4 @@
-// What the particle model asks of a scene.
+// Requirements of the particle model on a scene.
 #pragma once
 
 #include <vector>
@@ -8,19 +8,19 @@
 
 namespace polybed::dem {
 
-/// What the keys of [dem] require, of the effects that read them and whatever effects there are.
+/// Requirements of the keys in [dem], from the effects that read them and in general.
 [[nodiscard]] std::vector<core::Rule> key_rules();
 
-/// What particles that are fed require.
+/// Requirements of fed particles.
 [[nodiscard]] std::vector<core::Rule> feed_rules();
 
-/// What the particles at their start require; dem::Model refuses a scene that breaks one of these.
+/// Requirements of the initial particles; dem::Model rejects a scene that breaks one of these.
 [[nodiscard]] std::vector<core::Rule> start_rules();
 
-/// That there is a law of contact.
+/// Requires a law of contact.
 [[nodiscard]] core::Rule contact_rule();
 
-/// What this model alone asks of a scene.
+/// Requirements of this model alone on a scene.
 [[nodiscard]] const std::vector<core::Rule>& model_rules();
 
 }  // namespace polybed::dem

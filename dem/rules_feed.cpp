@@ -1,4 +1,4 @@
-// What particles that are fed require: room where they enter, and that they can move.
+// Requirements of fed particles: room where they enter, and free motion.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -15,8 +15,8 @@ using core::Broken;
 using core::Feed;
 using core::Scene;
 
-/// Volume fraction of a stream up to which particles find random places without overlap: spheres of one size that move
-/// on undisturbed enter in time up to 0.3, a few wait at 0.36, and at 0.4 their number grows.
+/// Volume fraction of a stream up to which particles find random places without overlap: undisturbed spheres of one
+/// size enter in time up to 0.3, a few wait at 0.36, and at 0.4 their number grows.
 constexpr double most_fed = 0.35;
 
 double diameter_of(const Scene& scene, const Feed& feed) {
@@ -41,7 +41,7 @@ Broken narrower_than_a_particle(const Scene& scene) {
   return broken;
 }
 
-/// Whether two feeds let particles in at the same place.
+/// Whether two feeds release particles at the same place.
 bool meet(const Feed& a, const Feed& b) {
   if (a.at != b.at) return false;
   for (std::size_t d = 0; d < std::min(a.from.size(), b.from.size()); ++d)

@@ -1,4 +1,4 @@
-// What the particles at their start require: room, and numbers that set the time step.
+// Requirements of the initial particles: room, and numbers that set the time step.
 #include <numeric>
 #include <optional>
 
@@ -20,8 +20,8 @@ using core::Scene;
 
 bool is_listed(const Scene& scene) { return scene.bed.start.kind == core::StartKind::list; }
 
-/// The box and the materials of a scene whose particles are counted by the case; nothing if they are not, or if other
-/// rules tell what is wrong with them.
+/// The box and the materials of a scene with numbers of particles in the case; nothing without them, or if other rules
+/// report their problems.
 struct Counted {
   Box box;
   Materials materials;
@@ -41,9 +41,9 @@ Broken without_room(const Scene& scene) {
   return wrong.empty() ? Broken() : Broken({wrong});
 }
 
-/// Reach of the forces of a scene beyond contact, m; nothing if they cannot be made, which other rules tell.
+/// Range of the forces in a scene beyond contact, m; nothing if they cannot be created, which other rules report.
 std::optional<double> reach_of(const Scene& scene, const Materials& materials) {
-  if (relevance::has_auto(scene)) return {};  // judged again once it has been chosen
+  if (relevance::has_auto(scene)) return {};  // judged again after the choice
   try {
     return make_pair_laws(scene, materials).reach();
   } catch (const core::CaseError&) {
@@ -76,12 +76,12 @@ Broken speed_unknown(const Scene& scene) {
   if (!start || scene.dem.fixed_step || scene.dem.start_speed > 0) return {};
   try {
     return core::broken_if(!(known_speeds(scene, start->materials, start->box, {}).greatest > 0));
-  } catch (const core::CaseError&) {  // the fluid is not known
+  } catch (const core::CaseError&) {  // the fluid is unknown
     return {};
   }
 }
 
-/// The kernel's smoothing takes the whole column.
+/// The kernel's smoothing needs the whole column.
 Broken shared_with_a_wide_kernel(const Scene& scene) {
   const std::optional<Counted> start = counted_start(scene);
   if (!start || !scene.fluid.present() || scene.dem.fluid_ranks != core::FluidRanks::shared) return {};
@@ -92,7 +92,7 @@ Broken shared_with_a_wide_kernel(const Scene& scene) {
                              .width > 0);
 }
 
-/// Keys that the particles at their start follow from.
+/// Keys that determine the initial particles.
 std::vector<std::string> start_keys(std::vector<std::string> first) {
   for (const char* key : {"bed.", "column.", "species.", "wall.", "fluid.", "dem.", "inlet.", "jet."})
     first.emplace_back(key);

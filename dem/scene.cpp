@@ -20,17 +20,17 @@ namespace polybed::dem {
 
 namespace {
 
-/// Contacts that a particle has room for among partners of a radius: its surface over the area that each takes, and at
-/// least those a fully packed monodisperse bed allows.
+/// Contacts that fit around a particle, with partners of a radius: its surface over the area per partner, and at least
+/// the number in a fully packed monodisperse bed.
 double most_contacts(double radius, double partner) {
   const double ratio = radius / partner;
   return std::max(16.0, 4 * (ratio + 1) * (ratio + 1));
 }
 
-/// Walls that a particle touches at once; of those inside, two beside each other.
+/// Walls in contact with a particle at once; two adjacent ones inside.
 double most_walls(const core::Scene& scene) { return scene.walls.empty() && !scene.column.is_tapered() ? 3 : 5; }
 
-/// Half the height of the side of a round box over the box's: particles fly beyond an open top.
+/// Half the height of a round box's side over the box's: particles fly beyond an open top.
 constexpr double beyond_the_top = 100;
 
 void add_openings(const core::Scene& scene, Box& box) {
@@ -45,8 +45,8 @@ void add_openings(const core::Scene& scene, Box& box) {
   for (const Hole& hole : holes_of(scene, box)) box.openings.push_back(hole.opening);
 }
 
-/// The walls inside, those of a tapered column, and the side of a round box. Those of one shape join: a scene has
-/// either flat ones or round ones.
+/// Adds the inner walls, those of a tapered column, and the side of a round box. Walls of one shape join: a scene has
+/// either flat or round ones.
 void add_plates(const core::Scene& scene, Box& box) {
   const auto end_of = [](const std::vector<double>& end) { return InPlane{0.5 * end[0], end[1]}; };
   bool round = false;
@@ -60,7 +60,7 @@ void add_plates(const core::Scene& scene, Box& box) {
   for (const core::InnerWall& wall : core::walls_of_taper(scene.column)) {
     round = true;
     box.add_cone(end_of(wall.from), end_of(wall.to));
-    if (wall.to[1] == scene.column.profile.back().first && wall.to[0] < box.size[0])  // or they would fall beside it
+    if (wall.to[1] == scene.column.profile.back().first && wall.to[0] < box.size[0])  // else they would fall past it
       box.add_cone(end_of(wall.to), {0.5 * wall.to[0], beyond_the_top * box.size[1]});
   }
   const double radius = 0.5 * box.size[0], far = beyond_the_top * box.size[1];
@@ -68,8 +68,8 @@ void add_plates(const core::Scene& scene, Box& box) {
   if (round) box.make_bottom_a_plate();
 }
 
-/// Speed that a fluid lets particles have: twice the terminal velocity of the fastest, or what they start with, and the
-/// inflow; or that of a channel. \param first  speed at the start, m/s
+/// Speed of particles in a fluid: twice the terminal velocity of the fastest, or their initial speed, and the inflow;
+/// or a channel's speed. \param first  speed at the start, m/s
 double speed_in_fluid(const core::Scene& scene, double first) {
   const relevance::FluidConstants fluid = relevance::fluid_constants(scene.fluid);
   double fastest = first, inflow = 0;
@@ -85,12 +85,12 @@ double speed_in_fluid(const core::Scene& scene, double first) {
     for (const auto& [t, u] : jet.superficial_velocity) inflow = std::max(inflow, u);
   for (const core::Discharge& discharge : scene.discharges)
     for (const auto& [t, u] : discharge.superficial_velocity) inflow = std::max(inflow, u);
-  // Channels through a bed: 3 times the velocity between packed particles was met by particles of a settled bed.
+  // Channels through a bed: particles in a settled bed reached 3 times the velocity between packed particles.
   const double channel = scene.bed.solids_fraction > 0 ? 4 * inflow / (1 - scene.bed.solids_fraction) : 0;
   return std::max(2 * (fastest + inflow), channel);
 }
 
-/// Greatest speed of a particle at rest that another has run into, over the other's; at least 1.
+/// Greatest speed of a particle at rest after a collision, over the other's; at least 1.
 double most_passed_on(const Materials& materials) {
   double most = 1;
   const auto& species = materials.species();
@@ -102,7 +102,7 @@ double most_passed_on(const Materials& materials) {
   return most;
 }
 
-/// m, that a particle can fall.
+/// Greatest fall of a particle, m.
 double fall_height(const core::Scene& scene, const Materials& materials, const Box& box,
                    const std::vector<Particle>& start) {
   double longest = 0;
@@ -117,7 +117,7 @@ double fall_height(const core::Scene& scene, const Materials& materials, const B
   for (const core::Feed& feed : scene.feeds)
     if (feed.at != core::ColumnFace::bottom)
       top = std::max(top, is_side(feed.at) && !feed.to.empty() ? feed.to.back() : box.size[1]);
-  // What leaves falls on by a diameter before it is taken out.
+  // A leaving particle falls by another diameter before it is removed.
   const bool hole =
       std::any_of(box.openings.begin(), box.openings.end(), [](const Opening& o) { return o.is_bottom(); });
   return top + (hole ? materials.greatest_diameter() : 0);
@@ -143,8 +143,8 @@ Box box_of(const core::Scene& scene) {
   for (int axis = 0; axis < 3; ++axis) {
     if (box.periodic[std::size_t(axis)] || (box.round && axis != 1)) continue;
     box.walls.push_back({axis, 0, 0});
-    // The top of a column without a fluid lets particles fly beyond it, and gravity bring them back, unless it is
-    // closed; the screen of one with a fluid stops them.
+    // In a column without a fluid particles fly beyond the top, and gravity returns them, unless it is closed; the
+    // screen of a column with a fluid stops them.
     if (axis != 1 || column.closed || (scene.fluid.present() && !is_open_at_top(scene)))
       box.walls.push_back({axis, 1, box.size[std::size_t(axis)]});
   }
@@ -180,7 +180,7 @@ Speeds expected_speeds(const core::Scene& scene, const Materials& materials, con
                        const std::vector<Particle>& start) {
   const Speeds known = known_speeds(scene, materials, box, start);
   if (known.greatest > 0) return known;
-  if (start.empty() && scene.feeds.empty() && scene.dem.start_speed > 0)  // nobody moves: any step will do
+  if (start.empty() && scene.feeds.empty() && scene.dem.start_speed > 0)  // nothing moves: any step suffices
     return {scene.dem.start_speed, scene.dem.start_speed};
   if (!scene.dem.fixed_step)
     throw core::StartError(std::vector{scene.places.problem({"dem.greatest_speed", "column.gravity"}, unknown_speed)});
@@ -191,7 +191,7 @@ Speeds expected_speeds(const core::Scene& scene, const Materials& materials, con
 }
 
 FixedPoint force_unit(const core::Scene& scene, const Materials& materials, const PairLaws& laws, double speed) {
-  // Of particles that their contacts can stop, the dashpot and friction add hardly more than the elastic force.
+  // The dashpot and friction add hardly more than the elastic force for particles that their contacts can stop.
   constexpr double reserve = 4;
   const auto force = [&](int kind) {
     const PairMaterial& pair = materials.kinds()[std::size_t(kind)];
@@ -200,9 +200,9 @@ FixedPoint force_unit(const core::Scene& scene, const Materials& materials, cons
         2 * laws.normal->damping_ratio(kind) * std::sqrt(pair.mass * laws.normal->stiffness_at(kind, overlap)) * speed;
     return std::max(laws.normal->force_at(kind, overlap), dashpot / (reserve - 1));
   };
-  // Many fine ones push a coarse one with small forces each, few coarse ones with large: the sums are alike. Their
-  // most, not the largest force times the largest number, or a fine particle's torque drowns in the unit of a wide
-  // mixture.
+  // Many fine particles push a coarse one with small forces each, a few coarse ones with large ones: the sums are
+  // similar. Use their greatest, not the largest force times the largest number; otherwise a fine particle's torque is
+  // lost in the unit of a wide mixture.
   double most = 0;
   const auto& species = materials.species();
   for (int i = 0; i < int(species.size()); ++i) {

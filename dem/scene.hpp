@@ -1,4 +1,4 @@
-// What the particle model reads from a scene: its box, gravity, units of force, skin and speeds.
+// Data of the particle model from a scene: its box, gravity, units of force, skin and speeds.
 #pragma once
 
 #include <string>
@@ -16,11 +16,10 @@ namespace polybed::dem {
 /// Its size and which sides are joined: the box without walls.
 [[nodiscard]] Box bare_box_of(const core::Column& column);
 
-/// m/s2.
+/// Gravity, m/s2.
 [[nodiscard]] Vector gravity_of(const core::Scene& scene);
 
-/// m, how much nearer than contact two surfaces may be before the list of pairs must know them: as the case gives it,
-/// or a tenth of the least diameter.
+/// Distance of surfaces, m, up to which the list must contain pairs: from the case, or a tenth of the least diameter.
 [[nodiscard]] double skin_of(const core::Scene& scene, const Materials& materials);
 
 /// Volume of particles, m3: of each species, and of all.
@@ -30,50 +29,50 @@ struct SolidsVolume {
 };
 [[nodiscard]] SolidsVolume volume_of(const std::vector<Particle>& particles, std::size_t species);
 
-/// More than any particles in a box take: what sums over particles that are fed have room for.
+/// Upper bound on all particles in a box: the range of sums over fed particles.
 struct Content {
   double volume = 0, mass = 0;  ///< m3, kg
 };
 [[nodiscard]] Content greatest_content(const Box& box, const Materials& materials);
-/// Whether particles enter the box. One whose ends are joined, made from a case that is fed, has none.
+/// Whether particles enter the box. No if its ends are joined, even in a case with feeds.
 [[nodiscard]] bool is_fed(const core::Scene& scene);
-/// Whether particles leave through the top. In a box whose ends are joined they do not, nor does a fixed bed.
+/// Whether particles leave through the top. No if the ends of the box are joined, nor from a fixed bed.
 [[nodiscard]] bool is_open_at_top(const core::Scene& scene);
 
-/// What particles are expected to reach, m/s.
+/// Expected speeds of particles, m/s.
 struct Speeds {
-  double impact = 0;    ///< at which many meet others
-  double greatest = 0;  ///< of any, at least that: what the step is made for
+  double impact = 0;    ///< in typical collisions
+  double greatest = 0;  ///< of any particle, at least as high: for the time step
 };
 
-/// As the case gives it; or that of the shear or of a fall, sqrt(v^2 + 2 g h) from the top of the bed as it starts with
-/// the greatest speed v there or of a feed (h is the height of the box where the start does not tell more, or where
-/// particles are fed from the top), and what the heaviest pass on to the lightest when they meet so. In a fluid both
-/// are at most twice the terminal velocity of the fastest, or v, and the inflow, or four times what the inflow becomes
-/// between packed particles. 0 if nothing tells it.
-/// \param start  the particles, or some as fast as any; the places matter of a list alone
+/// From the case; or from the shear or a fall, sqrt(v^2 + 2 g h) from the top of the starting bed with the greatest
+/// initial or feed speed v (h is the height of the box if the start does not define a lower one, or if particles are
+/// fed from the top), plus what a light particle gains from a heavy one. In a fluid both are at most twice the terminal
+/// velocity of the fastest, or v, and the inflow, or four times the inflow's velocity between packed particles. 0 if
+/// unknown.
+/// \param start  the particles, or some as fast as any; places matter only for a list
 [[nodiscard]] Speeds known_speeds(const core::Scene& scene, const Materials& materials, const Box& box,
                                   const std::vector<Particle>& start);
 
-/// The same for a run: of particles at rest that nothing moves it is what dem.fixed_step is made for. Throws
-/// core::CaseError if nothing tells it.
+/// The same for a run: for particles at rest that nothing moves it is the speed that suits dem.fixed_step. Throws
+/// core::CaseError if it is unknown.
 [[nodiscard]] Speeds expected_speeds(const core::Scene& scene, const Materials& materials, const Box& box,
                                      const std::vector<Particle>& start);
 
-/// Unit of forces: at the overlap allowed, on as many contacts as the largest particle has room for. The dashpots of
-/// particles far too fast for their contacts take part. \param speed  expected, m/s
+/// Unit of forces: for the greatest allowed overlap, on as many contacts as fit around the largest particle. Includes
+/// the dashpots of particles far too fast for their contacts. \param speed  expected, m/s
 [[nodiscard]] FixedPoint force_unit(const core::Scene& scene, const Materials& materials, const PairLaws& laws,
                                     double speed = 0);
 [[nodiscard]] FixedPoint torque_unit(const FixedPoint& force, const Materials& materials);
 
 /// Why a particle could touch another and its image along an axis; empty if none can: joined sides need room for two of
-/// the largest and twice the reach. T: so does the thesis, whose depth for system B is too small by a hair.
-/// \param greatest_diameter  m  \param reach  of forces beyond contact, m
-/// \param skin  of the list of neighbours, m: a sheared box needs room for it, too, as its list has but one image
+/// the largest and twice the range. T: the thesis too, whose depth for system B is slightly too small.
+/// \param greatest_diameter  m  \param reach  range of forces beyond contact, m
+/// \param skin  of the list of neighbours, m: a sheared box needs room for it too, as its list has only one image
 [[nodiscard]] std::string no_room_for_images(const Box& box, std::size_t axis, double greatest_diameter, double reach,
                                              double skin);
 
-/// What is said where nothing tells the speed of the particles.
+/// Message if the speed of the particles is unknown.
 inline constexpr const char* unknown_speed =
     "dem.greatest_speed: without gravity, shear or particles that move nothing tells how fast they will be; give the "
     "greatest speed expected, which sets the time step";

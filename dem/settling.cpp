@@ -24,20 +24,20 @@ namespace polybed::dem {
 
 namespace {
 
-/// Restitution while the bed comes to rest: far from 1, and not so low that the dashpot limits the step.
+/// Restitution while the bed settles: far below 1, but high enough that the dashpot does not limit the step.
 constexpr double dull = 0.3;
 constexpr double at_rest = 1e-6;
-constexpr double of_fall = 0.05;              ///< between two looks at the bed
-constexpr double longest_wait = 20;           ///< over the time expected; 0.7 to 1.9 were met
-constexpr std::int64_t steps_to_a_stop = 64;  ///< as often as a run asks whether the user wants to stop
+constexpr double of_fall = 0.05;              ///< between two checks of the bed
+constexpr double longest_wait = 20;           ///< over the expected time; actual: 0.7 to 1.9
+constexpr std::int64_t steps_to_a_stop = 64;  ///< as often as a run checks for a stop by the user
 
 bool rolls_without_spring(const core::Scene& scene) {
   return relevance::effects::rolling.has(scene, relevance::effects::without_spring);
 }
 
-/// A constant rolling moment changes its sign with the spin from step to step and keeps a bed creeping; the spring with
-/// the same greatest moment lets it rest, and what rests under it needs no more. An arm of half a radius makes it as
-/// stiff as the step can bear.
+/// A constant rolling moment changes sign with the spin from step to step and keeps a bed creeping. The spring with the
+/// same greatest moment lets it rest, and a bed at rest under it needs no more. An arm of half a radius makes it as
+/// stiff as the step allows.
 void roll_with_spring(core::Scene& scene) {
   constexpr double greatest_arm = 0.5, damping = 0.3;  // over R*; over the critical one
   scene.effects[relevance::effects::rolling.role] = relevance::effects::with_spring;
@@ -60,7 +60,7 @@ core::Scene falling(core::Scene scene, double step) {
   return scene;
 }
 
-/// Takes numbers out of the memory of each contact. \param place  of the first
+/// Removes numbers from the memory of each contact. \param place  index of the first
 void forget(core::Checkpoint& checkpoint, std::size_t place, std::size_t count) {
   constexpr std::size_t ids = 2;
   std::int64_t& size = checkpoint.integers.at("memory_size");
@@ -85,7 +85,7 @@ double speed_alone(const core::Scene& scene, const core::Species& species) {
                     : none;
 }
 
-/// Energy that lifts each particle by its radius, or that it has as it settles alone if that is less: in a viscous
+/// Energy that lifts each particle by its radius, or its energy when it settles alone if that is less: in a viscous
 /// fluid a bed moves with little energy all the way down. J.
 double energy_of_fall(const core::Scene& scene, const Model& model) {
   double energy = 0;
@@ -98,8 +98,8 @@ double energy_of_fall(const core::Scene& scene, const Model& model) {
   return energy;
 }
 
-/// How much longer beads with little friction take: what they touch gives way again and again. Measured on a bed of
-/// 300: 4.7 times as long without friction, 2.1 with 0.01, as long as any with 0.1.
+/// Factor on the time for beads with little friction, whose supports yield again and again. Measured on a bed of 300:
+/// 4.7 without friction, 2.1 with 0.01, 1 with 0.1.
 double sliding(const core::Scene& scene, const Materials& materials) {
   constexpr double without_friction = 3.7, fades = 0.012;
   double friction = std::numeric_limits<double>::infinity();
@@ -112,7 +112,7 @@ double sliding(const core::Scene& scene, const Materials& materials) {
 }  // namespace
 
 double settling_time(const core::Scene& scene, const Materials& materials, const Box& box) {
-  constexpr double until_rest = 2.2, in_fluid = 1.5;  // of the falls below, measured
+  constexpr double until_rest = 2.2, in_fluid = 1.5;  // in units of the falls below, measured
   const double height = start_height(scene, materials, box), g = scene.column.gravity;
   const double dry = until_rest * sliding(scene, materials) * std::sqrt(2 * height / g);
   if (!scene.fluid.present()) return dry;
@@ -122,12 +122,12 @@ double settling_time(const core::Scene& scene, const Materials& materials, const
   for (std::size_t j = 0; j < numbers.size(); ++j)
     solids +=
         double(numbers[j]) * closures::sphere_volume(materials.species()[j].radius) / scene.column.cross_section();
-  constexpr double hindrance = 3;  // exponent of Richardson and Zaki between their 2.4 and 4.65
+  constexpr double hindrance = 3;  // exponent of Richardson and Zaki, between its limits 2.4 and 4.65
   double slowest = 0;
   for (std::size_t j = 0; j < numbers.size(); ++j) {
     const Species& s = materials.species()[j];
     if (numbers[j] == 0 || s.density == density) continue;
-    const double room = s.density > density ? height : box.size[1];  // what is lighter rises to the top of the column
+    const double room = s.density > density ? height : box.size[1];  // lighter solids rise to the top of the column
     const double way = std::max(0.0, room - scene.column.filled_height(solids / scene.bed.solids_fraction));
     const double clear = 1 - solids / scene.column.even_height(room);
     slowest = std::max(slowest, way / (speed_alone(scene, scene.species[j]) * std::pow(clear, hindrance)));
@@ -154,7 +154,7 @@ core::Checkpoint settled(const core::Scene& scene, double step, const std::share
       model.step(1e300);
     }
     totals = totals_of(model);
-    if (totals.kinetic <= rest) {  // a bead may spin on for seconds about its point of contact
+    if (totals.kinetic <= rest) {  // a bead can spin on for seconds about its point of contact
       model.restart();
       core::Checkpoint checkpoint = model.checkpoint();
       const PairLaws& laws = model.laws();

@@ -1,4 +1,4 @@
-// Several numbers of a record at once.
+// Several numbers in a record at once.
 #pragma once
 
 #include <array>
@@ -12,8 +12,8 @@ namespace polybed::dem {
 /// the attribute, code for any processor aligns it to 16 bytes and AVX code expects 32. Template arguments drop it.
 using Four = double __attribute__((vector_size(32), aligned(32)));
 
-/// Four numbers where they lie, at any multiple of 8 bytes. A copy by memcpy goes through memory in two halves, and the
-/// processor cannot forward two stores to the one load that follows.
+/// Four numbers in place, at any multiple of 8 bytes. A memcpy would copy through memory in two halves, and the
+/// processor cannot forward two stores to the load that follows.
 using FourInMemory = double __attribute__((vector_size(32), aligned(8), may_alias));
 
 [[gnu::always_inline]] inline void get_four(const void* from, Four& four) {
@@ -21,18 +21,18 @@ using FourInMemory = double __attribute__((vector_size(32), aligned(8), may_alia
 }
 [[gnu::always_inline]] inline void put_four(const Four& four, void* to) { *static_cast<FourInMemory*>(to) = four; }
 
-/// Four whole numbers where they lie, at any multiple of 8 bytes.
+/// Four whole numbers in place, at any multiple of 8 bytes.
 using WholeInMemory = std::int64_t __attribute__((vector_size(32), aligned(8), may_alias));
-/// Adds to four whole numbers, each cut off at its point.
+/// Adds to four whole numbers, each truncated.
 [[gnu::always_inline]] inline void add_whole(const Four& four, std::int64_t* to) {
   *static_cast<WholeInMemory*>(static_cast<void*>(to)) += __builtin_convertvector(four, WholeInMemory);
 }
 
-/// A vector and the number behind it in its record.
+/// A vector and the next number in its record.
 [[gnu::always_inline]] inline Four four_at(const Vector& first_three) {
   return *static_cast<const FourInMemory*>(static_cast<const void*>(first_three.data()));
 }
-/// Adds to a vector, and leaves the number behind it as it is.
+/// Adds to a vector without changing the next number.
 [[gnu::always_inline]] inline void add_three(const Four& change, Vector& to) {
   using Places = std::int64_t __attribute__((vector_size(32)));
   const Four before = four_at(to), sum = before + change;

@@ -1,4 +1,4 @@
-// Random first places of particles, as even over large distances as those of hard spheres.
+// Random initial places of particles, as even over large distances as those of hard spheres.
 #include "dem/hard_spheres.hpp"
 
 #include <algorithm>
@@ -14,7 +14,7 @@ namespace {
 enum Sequence : std::uint64_t { place_in_part = 16, rank = place_in_part + 3, lies_anywhere, cut_of_part };
 
 /// Variance over mean of the number of hard spheres in a large volume (Carnahan and Starling, J. Chem. Phys. 51, 1969):
-/// 1 of a dilute gas, 0.02 at a solids fraction of 0.5.
+/// 1 for a dilute gas, 0.02 at a solids fraction of 0.5.
 double number_variance(double fraction) {
   const double f = std::min(fraction, 0.64);
   return std::pow(1 - f, 4) / ((1 + 2 * f) * (1 + 2 * f) + f * f * f * (f - 4));
@@ -53,7 +53,7 @@ class Division {
  private:
   const std::vector<Particle*>& particles_;
   std::uint64_t seed_;
-  std::vector<double> sum_{0};  ///< m3, of the particles before
+  std::vector<double> sum_{0};  ///< m3, of the preceding particles
 };
 
 /// Between the corners of a region.

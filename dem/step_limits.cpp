@@ -16,14 +16,14 @@ namespace polybed::dem {
 
 namespace {
 
-/// Shares of the limits that a step takes. Half the Rayleigh time, as the short paper has it, suits one sphere; in
-/// dense contacts, whose limits add up, a fifth.
+/// Shares of the limits for a step. Half the Rayleigh time, as in the short paper, suits one sphere; a fifth suits
+/// dense contacts, whose limits add up.
 constexpr double of_rayleigh = 0.2, of_stability = 0.2, of_diameter = 0.01;
 
-/// Of the limit of stability, beyond which a step that the case gives is warned of.
+/// Share of the stability limit above which a step from the case causes a warning.
 constexpr double most_of_stability = 0.5;
 
-/// Limit of a spring of rotation, N m. Of two unequal bodies the inertia is taken too small.
+/// Limit of a rotational spring, N m. The inertia of two unequal bodies is underestimated.
 void add_rolling(const PairMaterial& pair, double stiffness, const std::string& name, std::vector<StepLimit>& all) {
   if (!(stiffness > 0)) return;
   const double inertia = closures::moment_of_inertia(pair.mass, pair.least_radius);
@@ -49,8 +49,8 @@ void add_pair(const core::Scene& scene, const Materials& materials, const PairLa
                 laws.rolling->stiffness(kind, law.force_at(kind, overlap) / overlap), name, all);
 }
 
-/// The fluid takes at least one step of the particles at a time, and its viscous stress, which is explicit, must not
-/// carry motion over a cell in it. As far from the limit as dem.fluid_every is by default.
+/// The fluid's step is at least one step of the particles, and its explicit viscous stress must not carry motion over a
+/// cell in it. The margin is as large as for the default of dem.fluid_every.
 void add_viscosity(const core::Scene& scene, std::vector<StepLimit>& all) {
   if (!scene.fluid.present() || scene.column.shear_rate != 0 || !core::acts(scene, "fluid_stress")) return;
   constexpr double courant = 0.5;

@@ -1,4 +1,4 @@
-// The time step of the particles and what limits it.
+// The time step of the particles and its limits.
 #pragma once
 
 #include <string>
@@ -11,7 +11,7 @@
 namespace polybed::dem {
 
 struct StepLimit {
-  std::string name;  ///< what it is, with the species
+  std::string name;  ///< of the limit, with the species
   double dt = 0;     ///< s
 };
 
@@ -19,16 +19,16 @@ struct StepLimits {
   double dt = 0;  ///< s
   std::string limited_by;
   double greatest_speed = 0;  ///< m/s, expected
-  bool synchronised = false;  ///< the integrator, and why
+  bool synchronised = false;  ///< the integrator, and the reason for it
   std::string integrator_reason;
   std::vector<StepLimit> all;  ///< the smallest first
-  StepLimit stability;         ///< whole, of the linear analysis: beyond it the numbers of this pair grow
-  std::string warning;         ///< of a step that the case gives, beyond half of that; empty: it is not
+  StepLimit stability;         ///< the full limit from the linear analysis: beyond it the solution for this pair grows
+  std::string warning;         ///< for a step from the case, above half of that; empty otherwise
 };
 
-/// The step of a scene: the smallest of contact time over steps_per_contact, a share of the Rayleigh time, of the
-/// oscillation of the stiffest contact and of the time to move a part of a diameter, the smallest over species and
-/// pairs, and of what the viscous stress of a fluid bears.
+/// The step of a scene: the minimum of contact time over steps_per_contact, a share of the Rayleigh time, of the
+/// oscillation of the stiffest contact and of the time to move a part of a diameter, over all species and pairs, and of
+/// the limit from a fluid's viscous stress.
 /// \param speed  greatest expected, m/s, above 0
 [[nodiscard]] StepLimits step_limits(const core::Scene& scene, const Materials& materials, const PairLaws& laws,
                                      double speed);

@@ -23,7 +23,7 @@ Tensor tensor(const std::int64_t* units, double scale) {
   return t;
 }
 
-/// Unit of the sum of r F over all contacts: each particle's forces fit into the unit of force.
+/// Unit for the sum of r F over all contacts: each particle's forces fit into the unit of force.
 FixedPoint virial_unit(const Model& model) {
   const double reach = model.materials().greatest_diameter() + model.laws().reach();
   const int q = int(std::ceil(std::log2(reach * double(std::max<std::int64_t>(model.particle_count(), 1)))));
@@ -31,7 +31,7 @@ FixedPoint virial_unit(const Model& model) {
   return {std::ldexp(force.per_unit, -q), std::ldexp(force.unit, q)};
 }
 
-/// The laws that make the force, once more and for no time.
+/// Evaluates the laws of the force again, with a zero time step.
 void find_force(const PairLaws& laws, ContactBatch& batch) {
   laws.normal->act(batch);
   if (laws.tangential) laws.tangential->act(batch, 0);
@@ -42,7 +42,7 @@ void find_force(const PairLaws& laws, ContactBatch& batch) {
   for (int c = 0; c < batch.padded(); ++c) batch.normal[c] += force[c];
 }
 
-/// Calls `see` for every pair that acts on each other and that this rank counts, with the force on the first.
+/// Calls `see` for every interacting pair that this rank counts, with the force on the first.
 template <class See>
 void each_contact(Model& model, See&& see) {
   model.refresh_ghosts();
@@ -63,7 +63,7 @@ void each_contact(Model& model, See&& see) {
   }
 }
 
-/// Adds the contacts that this rank counts. Returns how many touch.
+/// Adds the contacts that this rank counts. Returns the number that touch.
 std::int64_t add_contacts(Model& model, double per_unit, Sum& sum) {
   std::int64_t touching = 0;
   each_contact(model, [&](const ContactForce& c) {
@@ -73,7 +73,7 @@ std::int64_t add_contacts(Model& model, double per_unit, Sum& sum) {
   return touching;
 }
 
-/// Adds m v' v' of this rank's particles to the sum of their species.
+/// Adds m v' v' of this rank's particles to their species' sums.
 void add_motion(const Model& model, std::vector<Sum>& kinetic, std::vector<std::int64_t>& number) {
   const Particles& particles = model.particles();
   const double per_unit = model.energy_unit().per_unit;

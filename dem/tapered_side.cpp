@@ -30,8 +30,8 @@ void TaperedSide::scale_away(Vector& x, double by) const {
   for (const std::size_t k : {0, 2}) x[k] = 0.5 * column_->size[k] + by * (x[k] - 0.5 * column_->size[k]);
 }
 
-/// A sphere that touches a sloping part does so at one height, s r/sqrt(1 + s^2) below its centre, s = dR/dy; else it
-/// meets an end of the part.
+/// A sphere touches a sloping part at one height, s r/sqrt(1 + s^2) below its centre, s = dR/dy; else it touches an end
+/// of the part.
 double TaperedSide::reach(double height, double radius) const {
   double least = std::numeric_limits<double>::infinity();
   for (const Part& part : parts_) {
@@ -45,7 +45,7 @@ double TaperedSide::reach(double height, double radius) const {
   return least;
 }
 
-/// A hair off the walls, or round-off could leave it within a step, whose rim would then push it far towards the axis.
+/// At a tiny distance from the walls: round-off could otherwise put it in a step, whose rim would push it far inwards.
 void TaperedSide::move_inside(Vector& x, double radius, double low, double high) const {
   constexpr double hair = 1 + 0x1p-30;
   if (from_axis(x) <= reach(x[1], radius)) return;

@@ -1,4 +1,4 @@
-// The room for spheres within the side of a round box whose diameter changes with the height.
+// The room for spheres within the side of a round box whose diameter changes with height.
 #pragma once
 
 #include <memory>
@@ -10,17 +10,17 @@ namespace polybed::dem {
 
 class TaperedSide {
  public:
-  /// Of a column whose diameter does not change: false as a bool.
+  /// For a column with constant diameter: false as a bool.
   TaperedSide() = default;
   explicit TaperedSide(const core::Column& column);
 
   [[nodiscard]] explicit operator bool() const { return column_ != nullptr; }
-  /// How far from the axis the centre of a sphere may be at a height, m. Beyond the ends the side goes on straight.
+  /// Greatest distance of a sphere's centre from the axis at a height, m. The side continues straight beyond the ends.
   [[nodiscard]] double reach(double height, double radius) const;
-  /// Moves a sphere that the side cuts along the normals of the walls, as far as the heights allow that its centre may
-  /// have, and what is left towards the axis.
+  /// Moves a sphere that the side cuts along the normals of the walls, as far as its range of heights allows, and the
+  /// rest towards the axis.
   void move_inside(Vector& x, double radius, double low, double high) const;
-  /// Volume below a height over the widest cross-section, m, and the inverse.
+  /// Volume below a height over the widest cross-section, m, and its inverse.
   [[nodiscard]] double even_height(double height) const { return column_->even_height(height) * per_widest_; }
   [[nodiscard]] double height_of(double even) const { return column_->filled_height(even / per_widest_); }
   /// Radius at a height over the greatest.
@@ -28,7 +28,7 @@ class TaperedSide {
 
  private:
   struct Part {
-    double y, r, along_y, along_r;  ///< one end, and from there to the other, m
+    double y, r, along_y, along_r;  ///< one end, and the vector to the other, m
   };
   [[nodiscard]] double from_axis(const Vector& x) const;
   void scale_away(Vector& x, double by) const;

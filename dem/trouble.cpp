@@ -9,8 +9,8 @@ namespace polybed::dem {
 
 namespace {
 
-/// The stiffness at which the contact would have stopped them: what is stored in it at the overlap now and what they
-/// still approach with, both taken by one contact, the lighter one held by its neighbours.
+/// The stiffness at which the contact would have stopped the particles: one contact absorbs its stored energy at the
+/// present overlap and the remaining energy of approach, with the lighter particle supported by its neighbours.
 std::string remedy_of_pair(const Model& model, const core::Scene& scene, const Contacts::Pair& pair,
                            const PairTrouble& trouble) {
   if (model.steps() == 0 || std::isinf(trouble.excess)) return "look at the start";
@@ -28,11 +28,11 @@ std::string remedy_of_pair(const Model& model, const core::Scene& scene, const C
     const double v = particles.motion[i].v[k] - (trouble.wall ? 0 : particles.motion[j].v[k]);
     square += v * v;
   }
-  // Energy goes with stiffness: so much stiffer, what is there fits into the overlap that is allowed.
+  // Energy scales with stiffness: with this factor the present energy fits into the allowed overlap.
   double factor = stiffening(normal, pair.kind, overlap, allowed) * (1 + 0.5 * mass * square / stored);
   const OverlapForecast& expected = model.overlap_expected();
-  if (!expected.warning.empty()) factor = std::max(factor, expected.stiffening);  // others would be next
-  constexpr double least_allowed = 1e-4;  // of a diameter: less asks for particles stiffer than any
+  if (!expected.warning.empty()) factor = std::max(factor, expected.stiffening);  // other pairs would be next
+  constexpr double least_allowed = 1e-4;  // over a diameter: less would need particles stiffer than any
   if (scene.dem.max_overlap < least_allowed)
     return fmt::format("dem.max_overlap = {:g} of the diameter is too little: leave it out", scene.dem.max_overlap);
   const std::string use =
@@ -51,7 +51,7 @@ std::string trouble_of_pair(const Model& model, const core::Scene& scene) {
   const Particles& particles = model.particles();
   const Place& at = particles.place[std::size_t(pair.first)];
   const int plate = t.wall ? model.box().walls[std::size_t(pair.second)].plate : -1;
-  const bool inside = plate >= 0 && std::size_t(plate) < scene.walls.size();  // those of the case come first
+  const bool inside = plate >= 0 && std::size_t(plate) < scene.walls.size();  // the case's walls come first
   const bool side = plate >= 0 && model.box().plates[std::size_t(plate)].along_y != 0;
   const std::string other = inside   ? fmt::format("[[wall]] number {}", plate + 1)
                             : side   ? "the side of the column"

@@ -1,4 +1,4 @@
-// What the particle model says when it cannot go on: who, where, and what to do about it.
+// Messages of the particle model when it cannot continue: particles, place, and what to do.
 #pragma once
 
 #include <cstdint>
@@ -9,10 +9,10 @@
 
 namespace polybed::dem {
 
-/// The deepest overlap of this rank.
+/// Reports the deepest overlap on this rank.
 [[nodiscard]] std::string trouble_of_pair(const Model& model, const core::Scene& scene);
 
-/// A particle of this rank that a step would move too far.
+/// Reports a particle on this rank that a step would move too far.
 [[nodiscard]] std::string trouble_of_haste(const Model& model, const core::Scene& scene, std::int64_t id);
 
 /// \param met, expected  greatest speeds, m/s

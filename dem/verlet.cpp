@@ -18,7 +18,7 @@ Verlet::Verlet(bool synchronised, double dt, Vector gravity, FixedPoint force, F
 
 namespace {
 
-/// A particle under its load and its weight alone.
+/// Motion of a particle under its load and its weight alone.
 struct Free {
   struct Kick {
     Four dv;
@@ -34,7 +34,7 @@ struct Free {
   void sum_work() const {}
 };
 
-/// A fluid whose work nobody asks for.
+/// Motion in a fluid whose work is not counted.
 struct Uncounted {
   FluidMotion& fluid;
 
@@ -55,7 +55,7 @@ void turn(Particles& particles, std::size_t i, double unit, double time) {
 
 }  // namespace
 
-/// What the load, the weight and the fluid do to a particle in half a step.
+/// Applies load, weight and fluid to a particle over half a step.
 template <class Push>
 void Verlet::kick(Particles& particles, std::size_t i, Push& push, WorkShare share) const {
   const double time = 0.5 * dt_;
@@ -79,7 +79,7 @@ void Verlet::begin_with(Verlet& verlet, Particles& particles, Push& push) {
       drift(i);
       Motion& m = particles.motion[i];
       verlet.half_[i] = {m.v, m.w};
-      add_three(push.kick(particles, i, half).dv, m.v);  // only looked at: it is not kept
+      add_three(push.kick(particles, i, half).dv, m.v);  // a prediction: not applied
       turn(particles, i, verlet.torque_.unit, half);
       particles.load[i] = {};
     }
@@ -94,7 +94,7 @@ void Verlet::begin_with(Verlet& verlet, Particles& particles, Push& push) {
   if (verlet.ledger_ != nullptr) verlet.ledger_->begin_step(particles.load.size());
 }
 
-/// What the torque and the films of a step do beyond their work at the velocities foreseen, J.
+/// Work of torque and films in a step beyond their work at the predicted velocities, J.
 double Verlet::work_missed(const Particles& particles, std::size_t i, const Velocities& foreseen) const {
   const Motion& now = particles.motion[i];
   double power = 0;
@@ -154,7 +154,7 @@ Verlet::Drift Verlet::next_drift(const Particles& particles, double time, Around
 
 template <class Push>
 Verlet::Drift Verlet::next_drift_with(const Verlet& verlet, const Particles& particles, double time, const Push& push) {
-  // Beyond a tenth of a diameter in a step contacts are no longer resolved; far beyond, walls are jumped over.
+  // Contacts are not resolved if a step exceeds a tenth of a diameter; far larger steps jump over walls.
   constexpr double share_of_diameter = 0.1;
   double most = 0, longest = 0;
   Drift drift;
@@ -166,7 +166,7 @@ Verlet::Drift Verlet::next_drift_with(const Verlet& verlet, const Particles& par
     const double dx = x[0] - from[0] + sx - shear_rate * from[1] * time;
     const double dy = x[1] - from[1] + sy, dz = x[2] - from[2] + sz;
     const double square = dx * dx + dy * dy + dz * dz;
-    // Turned round, so that what is not a number counts as too far, and stays.
+    // Written so that NaN counts as too far, and stays.
     most = square <= most || std::isnan(most) ? most : square;
     const double against = sx - shear_rate * x[1] * dt, allowed = 2 * share_of_diameter * particles.place[i].radius;
     const double length = against * against + sy * sy + sz * sz;

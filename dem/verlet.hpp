@@ -1,4 +1,4 @@
-// Motion of the particles: velocity Verlet, T(2.11)-(2.13), in its two readings.
+// Motion of the particles: velocity Verlet, T(2.11)-(2.13), in two variants.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 namespace polybed::dem {
 
-/// What the particles move through: a fluid, the flow of a sheared box, or neither.
+/// The surroundings of the particles: a fluid, the flow of a sheared box, or neither.
 struct Around {
   FluidMotion* fluid = nullptr;
   AffineDrag* flow = nullptr;
@@ -20,41 +20,41 @@ struct Around {
 
 /// U' = U + F dt/(2 m); x += U' dt; F = F(x, U'); U = U' + F dt/(2 m), and the same for spins.
 ///
-/// With friction and very unequal particles, a force from positions of a full step and velocities of a half step is
-/// unphysical (Vyas et al., Comput. Phys. Commun. 310 (2025) 109524). The synchronised reading gives the force
-/// U'' = U' + F_old dt/(2 m) instead, which belongs to the time of the positions.
+/// With friction and very unequal particles, a force from positions at a full step and velocities at a half step is
+/// unphysical (Vyas et al., Comput. Phys. Commun. 310 (2025) 109524). The synchronised variant passes the force U'' =
+/// U' + F_old dt/(2 m) instead, at the time of the positions.
 class Verlet {
  public:
   Verlet(bool synchronised, double dt, Vector gravity, FixedPoint force, FixedPoint torque, double shear_rate);
 
-  /// First half: afterwards positions and the velocities that the force needs are there, and loads are clear.
-  /// \param around  what the particles move through, here and below
+  /// First half: afterwards positions and the velocities for the force are ready, and loads are zero.
+  /// \param around  surroundings of the particles, here and below
   void begin(Particles& particles, Around around);
   /// Second half: the velocities of the full step.
   void end(Particles& particles, Around around);
 
-  /// Where the work at velocities that the contacts had not foreseen is counted; it must outlive this object.
+  /// The ledger for work at velocities that the contacts did not predict; it must outlive this object.
   void keep(Ledger& ledger) { ledger_ = &ledger; }
 
   [[nodiscard]] bool synchronised() const { return synchronised_; }
   [[nodiscard]] double dt() const { return dt_; }
-  /// For the steps that follow, s.
+  /// For the following steps, s.
   void set_dt(double dt) { dt_ = dt; }
 
-  /// Remembers where the owned particles are: what next_drift() counts from.
+  /// Stores the places of the owned particles, as the origin of next_drift().
   void mark(const Particles& particles);
-  /// What the next begin() will do.
+  /// Result of the next begin().
   struct Drift {
-    double distance = 0;      ///< greatest from the marked place, against a sheared box's own flow, m
-    double speed = 0;         ///< greatest of an owned particle, likewise, m/s
-    std::int64_t hasty = -1;  ///< id of an owned particle that it will move by more than a tenth of its diameter
+    double distance = 0;      ///< greatest from the marked place, relative to a sheared box's own flow, m
+    double speed = 0;         ///< greatest for an owned particle, likewise, m/s
+    std::int64_t hasty = -1;  ///< id of an owned particle that will move by more than a tenth of its diameter
   };
   /// \param time  from the mark to then, s
   [[nodiscard]] Drift next_drift(const Particles& particles, double time, Around around) const;
 
  private:
-  // Push is what moves particles beside their spin, FluidMotion, AffineDrag or the lack of both: kick() tells what a
-  // time does to one of them, account() keeps what of that was the fluid's.
+  // Push moves particles apart from their spin: FluidMotion, AffineDrag or neither. kick() returns the effect of a time
+  // on one of them; account() records the fluid's part of it.
   template <class Act>
   auto with(Around around, Act&& act) const;
   template <class Push>
@@ -77,7 +77,7 @@ class Verlet {
   FixedPoint force_, torque_;
   double shear_rate_;
   Ledger* ledger_ = nullptr;      ///< null: nothing is counted
-  std::vector<Velocities> half_;  ///< of the half step, where synchronised
+  std::vector<Velocities> half_;  ///< at the half step, for the synchronised variant
   std::vector<Vector> marked_;
 };
 

@@ -1,12 +1,12 @@
-// A few dozen contacts side by side. Each law is a loop over a batch: it is chosen once, runs at vector speed in the
-// innermost cache, and one that a scene leaves out has no loop and no branch.
+// A few dozen contacts side by side. Each law is a loop over a batch: it is selected once and is vectorised in the
+// innermost cache. A law that a scene leaves out has no loop and no branch.
 #pragma once
 
 #include <cstdint>
 
 namespace polybed::dem {
 
-// Contacts of a batch do not depend on each other, which the compiler cannot see from arrays that might overlap.
+// Contacts in a batch are independent, which the compiler cannot see from arrays that might overlap.
 #define POLYBED_INDEPENDENT _Pragma("GCC ivdep")
 
 struct ContactBatch {
@@ -17,15 +17,15 @@ struct ContactBatch {
   int count = 0;  ///< contacts; loops run to padded(), over finite values
   [[nodiscard]] int padded() const { return (count + 7) & ~7; }
 
-  std::int32_t pair[width] = {};   ///< its place in the list of pairs
+  std::int32_t pair[width] = {};   ///< index in the list of pairs
   std::int32_t first[width] = {};  ///< its particles, or a particle and a wall
   std::int32_t second[width] = {};
-  std::int32_t kind[width] = {};     ///< of the pair of materials
+  std::int32_t kind[width] = {};     ///< pair of materials
   alignas(64) Row distance[3] = {};  ///< x_i - x_j, then n of unit length
   alignas(64) Row velocity[3] = {};  ///< v_i - v_j, then v_t, of the surfaces at the contact
   alignas(64) Row spin_i[3] = {}, spin_j[3] = {};
-  alignas(64) Row radius_i = {}, radius_j = {};  ///< radius_j is without meaning at walls
-  alignas(64) Row memory[most_memory] = {};      ///< what the laws keep of a contact from step to step
+  alignas(64) Row radius_i = {}, radius_j = {};  ///< radius_j has no meaning at walls
+  alignas(64) Row memory[most_memory] = {};      ///< data of a contact that the laws keep between steps
 
   alignas(64) Row overlap = {}, arm_i = {}, arm_j = {};
   alignas(64) Row speed = {};           ///< v_n, negative on approach
@@ -34,9 +34,9 @@ struct ContactBatch {
   alignas(64) Row elastic = {};         ///< its elastic part
   alignas(64) Row dashpot = {};         ///< c_n
   alignas(64) Row tangential[3] = {};   ///< F_t
-  alignas(64) Row moment[3] = {};       ///< on i, of rolling friction; on j its opposite
+  alignas(64) Row moment[3] = {};       ///< on i, from rolling friction; the opposite on j
 
-  alignas(64) Row force[3] = {}, torque_i[3] = {}, torque_j[3] = {};  ///< in units, not yet whole
+  alignas(64) Row force[3] = {}, torque_i[3] = {}, torque_j[3] = {};  ///< in units, not yet rounded
 };
 
 }  // namespace polybed::dem

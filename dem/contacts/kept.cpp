@@ -45,7 +45,7 @@ std::size_t KeptById::slot_of(std::int64_t low, std::int64_t high) const {
   return std::size_t(mixed >> 32) & (slots_.size() - 1);
 }
 
-/// The first of several with the same ids, as of a pair that two ranks have sent: they are equal.
+/// The first of several with the same ids, for example a pair sent by two ranks: they are equal.
 std::int32_t KeptById::find(std::int64_t low, std::int64_t high) const {
   std::size_t slot = slot_of(low, high);
   while (slots_[slot] >= 0) {
@@ -59,9 +59,9 @@ std::int32_t KeptById::find(std::int64_t low, std::int64_t high) const {
 void KeptById::recall(Contacts& contacts, const Particles& particles, bool walls) const {
   contacts.memory.assign(contacts.pairs.size() * std::size_t(contacts.memory_size), 0.0);
   contacts.touching.clear();
-  for (auto* list : {&contacts.touching, &contacts.touched}) list->reserve(contacts.pairs.size());  // until the next
+  for (auto* list : {&contacts.touching, &contacts.touched}) list->reserve(contacts.pairs.size());  // until the rebuild
   for (std::int32_t p = 0; p < std::int32_t(contacts.pairs.size()); ++p) {
-    // Of a pair that is listed with several images only the first can touch: no box is so narrow.
+    // If a pair is listed with several images, only the first can touch: no box is that narrow.
     const Contacts::Pair &pair = contacts.pairs[std::size_t(p)],
                          &before = contacts.pairs[std::size_t(p > 0 ? p - 1 : 0)];
     if (p > 0 && pair.first == before.first && pair.second == before.second) continue;

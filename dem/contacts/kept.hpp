@@ -1,4 +1,4 @@
-// What is kept of contacts while the list of pairs is made anew and particles change ranks.
+// Stores contact data while the list of pairs is rebuilt and particles change ranks.
 #pragma once
 
 #include <array>
@@ -13,24 +13,24 @@
 
 namespace polybed::dem {
 
-/// What is kept of a contact, by the ids of its particles; of a wall: -1 - its number.
+/// Stored data of a contact, by the ids of its particles; a wall's id is -1 - its number.
 struct KeptContact {
   std::int64_t low, high;
   std::array<double, ContactBatch::most_memory> memory;
 };
 
-/// Ids of a pair; of a wall: -1 - its number.
+/// Ids of a pair; a wall's id is -1 - its number.
 [[nodiscard]] inline std::pair<std::int64_t, std::int64_t> ids_of(const Contacts::Pair& pair,
                                                                   const Particles& particles, bool walls) {
   return {particles.id[std::size_t(pair.first)],
           walls ? -1 - std::int64_t(pair.second) : particles.id[std::size_t(pair.second)]};
 }
 
-/// Adds what is kept of the contacts that touch.
+/// Adds the stored data of touching contacts.
 void keep(const Contacts& contacts, const Particles& particles, bool walls, std::vector<KeptContact>& kept);
 
-/// The same of many contacts while a list is made anew: rows of both ids and as many numbers as the laws use. Ids are
-/// exact as doubles below 2^53.
+/// The same for many contacts during a rebuild: rows of both ids and the numbers that the laws use. Ids are exact as
+/// doubles below 2^53.
 struct KeptContacts {
   static constexpr std::size_t head = 2;
   std::size_t width = head;
@@ -47,23 +47,23 @@ struct KeptContacts {
   [[nodiscard]] const double* memory(std::size_t n) const { return row(n) + head; }
 };
 
-/// Kept contacts, found by their ids.
+/// Stored contacts, searchable by their ids.
 class KeptById {
  public:
-  /// \param kept  must stay
+  /// \param kept  must outlive this
   explicit KeptById(const KeptContacts& kept);
-  /// Gives the pairs of a new list the memory they had; those that have one are the ones that touch.
+  /// Restores the memory of the pairs in a new list; the pairs with a memory are the touching ones.
   void recall(Contacts& contacts, const Particles& particles, bool walls) const;
 
  private:
-  /// Where the search for a contact begins, and where it goes on.
+  /// Start of the search for a contact, and its continuation.
   [[nodiscard]] std::size_t slot_of(std::int64_t low, std::int64_t high) const;
   [[nodiscard]] std::size_t next(std::size_t slot) const { return (slot + 1) & (slots_.size() - 1); }
-  /// Place of a contact's row, or -1.
+  /// Index of a contact's row, or -1.
   [[nodiscard]] std::int32_t find(std::int64_t low, std::int64_t high) const;
 
   const KeptContacts& kept_;
-  std::vector<std::int32_t> slots_;  ///< places of rows, -1 where empty; at least twice as many, a power of two
+  std::vector<std::int32_t> slots_;  ///< indices of rows, -1 if empty; at least twice as many as rows, a power of two
 };
 
 }  // namespace polybed::dem

@@ -12,7 +12,7 @@ namespace polybed::dem {
 
 namespace {
 
-/// n, r and lever arms of pairs of particles; the distance becomes n, the velocity that of the surfaces.
+/// n, r and lever arms for pairs of particles; replaces the distance by n and the velocity by the surfaces' velocity.
 void shape_pairs(ContactBatch& b) {
   const int n = b.padded();
   POLYBED_INDEPENDENT
@@ -50,8 +50,8 @@ void split_velocity(ContactBatch& b) {
   }
 }
 
-/// Velocities of both against each other, and their spins. Rows are filled by fours: beyond the last contact with more
-/// of the first, which is finite.
+/// Loads relative velocities and spins. Rows are filled by fours: beyond the last contact with the first contact's
+/// finite values.
 void load_motion(const Motion* motion, ContactBatch& b) {
   for (int c = b.count; (c & 3) != 0; ++c) {
     b.first[c] = b.first[0];
@@ -59,7 +59,7 @@ void load_motion(const Motion* motion, ContactBatch& b) {
   }
   static_assert(offsetof(Motion, w) == 4 * sizeof(double) && sizeof(Motion) == 8 * sizeof(double));
   for (int c = 0; c < b.count; c += 4) {
-    Four velocity[4], spin_i[4], spin_j[4];  // and one number more, which nobody reads
+    Four velocity[4], spin_i[4], spin_j[4];  // the fourth number is unused
 #pragma GCC unroll 4
     for (int k = 0; k < 4; ++k) {
       const auto* i = reinterpret_cast<const std::byte*>(motion + b.first[c + k]);
@@ -83,7 +83,7 @@ void load_motion(const Motion* motion, ContactBatch& b) {
   }
 }
 
-/// Likewise, and what is left of their number one by one.
+/// Likewise, and the rest of the numbers one by one.
 void load_memory(const double* memory, int size, ContactBatch& b) {
   for (int c = b.count; (c & 3) != 0; ++c) b.pair[c] = b.pair[0];
   int m = 0;
@@ -119,7 +119,7 @@ ContactLoader::ContactLoader(const Box& box, const Materials& materials, double 
   kinds_.resize(materials.kinds().size());
   for (std::int32_t a = 0; a < std::int32_t(species.size()); ++a) {
     const double ra = species[std::size_t(a)].radius;
-    // A wall is no larger than what it touches where radii are compared.
+    // A wall counts as no larger than the particle where radii are compared.
     materials.each_wall_kind(a, [&](std::int32_t kind) { kinds_[std::size_t(kind)] = {ra, ra, 0}; });
     for (std::int32_t b = 0; b < std::int32_t(species.size()); ++b) {
       const double rb = species[std::size_t(b)].radius, near = ra + rb + reach;
@@ -134,11 +134,11 @@ double ContactLoader::height_over(std::int32_t wall, const Place& place) const {
   return w.side == 0 ? s : -s;
 }
 
-/// Where the answer is no, the place in the batch is overwritten by the next.
+/// If a pair does not touch, the next one overwrites its place in the batch.
 std::int32_t ContactLoader::find_pairs(const Particles& particles, const Contacts& contacts, const Images& images,
                                        std::int32_t p, std::int32_t end, ContactBatch& b) const {
-  // The processor does not see coming which particles a pair names. With more of them than its caches hold it would
-  // wait for their places here, and for their motion and loads in what follows.
+  // Prefetch: the processor cannot predict the particles of a pair. With more particles than its caches contain it
+  // would wait for their places here, and later for their motion and loads.
   constexpr std::int32_t ahead = 16;
   const Place* place = particles.place.data();
   const Motion* motion = particles.motion.data();
@@ -197,7 +197,7 @@ std::int32_t ContactLoader::find_walls_by(const Distance& distance, const Partic
   return p;
 }
 
-/// Chosen once for a batch: whole faces have no question to ask of their contacts.
+/// Selected once per batch: contacts with whole faces need no further check.
 std::int32_t ContactLoader::find_walls(const Particles& particles, const Contacts& contacts, std::int32_t p,
                                        ContactBatch& b) const {
   const auto flat = [&](std::int32_t wall, const Place& place) { return height_over(wall, place); };
@@ -220,8 +220,8 @@ void ContactLoader::load_pairs(const Particles& particles, const Contacts& conta
   core::in_vectors<split_velocity>(b);
 }
 
-/// Contacts with a face that has an opening and with plates, loaded as with a whole face: n, arm and overlap as the
-/// nearest point has them.
+/// Loads contacts with a face that has an opening and with plates like those with a whole face: n, arm and overlap come
+/// from the nearest point.
 void ContactLoader::turn_to_nearest(const Particles& particles, ContactBatch& b) const {
   for (int c = 0; c < b.count; ++c) {
     const std::optional<Vector> from = from_nearest(b.second[c], particles.place[std::size_t(b.first[c])].x);

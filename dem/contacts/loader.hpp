@@ -1,4 +1,4 @@
-// Finds what touches and fills batches with what the laws of contact need.
+// Finds touching pairs and fills batches with the input of the contact laws.
 #pragma once
 
 #include <cstdint>
@@ -15,22 +15,22 @@ namespace polybed::dem {
 
 class ContactLoader {
  public:
-  /// \param reach  of the longest pair effect beyond contact, m
+  /// \param reach  range of the longest pair effect beyond contact, m
   ContactLoader(const Box& box, const Materials& materials, double reach);
 
-  /// Fills a batch with pairs nearer than their reach, from place p of the list on and before another. Returns where to
-  /// go on.
+  /// Fills a batch with pairs within their range, from index p of the list to before another. Returns the index at
+  /// which to continue.
   std::int32_t find_pairs(const Particles& particles, const Contacts& contacts, const Images& images, std::int32_t p,
                           std::int32_t end, ContactBatch& batch) const;
   std::int32_t find_walls(const Particles& particles, const Contacts& contacts, std::int32_t p,
                           ContactBatch& batch) const;
 
-  /// The rest of what contacts need, once the batch has their pairs and, of particles, their distances.
+  /// Loads the rest, once the batch has its pairs and, for particles, their distances.
   void load_pairs(const Particles& particles, const Contacts& contacts, const Images& images,
                   ContactBatch& batch) const;
   void load_walls(const Particles& particles, const Contacts& contacts, ContactBatch& batch) const;
 
-  /// All of that for the pairs that touched at the last force, from one of them on, as for those who only look.
+  /// The same for the pairs that touched at the last force, from one of them on, for observers.
   void load_touching_pairs(const Particles& particles, const Contacts& contacts, const Images& images,
                            std::size_t begin, ContactBatch& batch) const;
   void load_touching_walls(const Particles& particles, const Contacts& contacts, std::size_t begin,
@@ -43,10 +43,9 @@ class ContactLoader {
   };
   /// Distance of a centre from a flat wall, positive inside the box, m.
   [[nodiscard]] double height_over(std::int32_t wall, const Place& place) const;
-  /// To a centre from the nearest point of what is left of a face with an opening, or of a plate; nothing: of a whole
-  /// face.
+  /// Vector to a centre from the nearest point on a face with an opening, or on a plate; nothing for a whole face.
   [[nodiscard]] std::optional<Vector> from_nearest(std::int32_t wall, const Vector& centre) const;
-  /// The same where the box is not plain: of these walls the distance from that point, never negative.
+  /// The same for a box that is not plain: these walls return the distance from that point, never negative.
   [[nodiscard]] double distance_from(std::int32_t wall, const Place& place) const;
   template <class Distance>
   [[nodiscard]] std::int32_t find_walls_by(const Distance& distance, const Particles& particles,

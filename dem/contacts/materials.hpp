@@ -1,4 +1,4 @@
-// What particles and walls are made of, and what each pair of them is in a contact.
+// Materials of particles and walls, and the contact constants of each pair.
 #pragma once
 
 #include <cstdint>
@@ -30,9 +30,9 @@ class Materials {
 
   [[nodiscard]] const std::vector<Species>& species() const { return species_; }
   [[nodiscard]] const std::vector<PairMaterial>& kinds() const { return kinds_; }
-  /// Place in kinds() of two species; the same either way round.
+  /// Index in kinds() of two species, in either order.
   [[nodiscard]] std::int32_t kind(std::int32_t a, std::int32_t b) const { return a * stride_ + b; }
-  /// Likewise of a species and the walls. \param curve  of a round one, as Plate::curve_at() has it
+  /// Likewise for a species and the walls. \param curve  for a round wall, from Plate::curve_at()
   [[nodiscard]] std::int32_t wall_kind(std::int32_t a, std::int32_t curve = 0) const {
     return a * stride_ + std::int32_t(species_.size()) + curve;
   }
@@ -41,7 +41,7 @@ class Materials {
   void each_wall_kind(std::int32_t a, Act&& act) const {
     for (std::int32_t kind = wall_kind(a); kind < (a + 1) * stride_; ++kind) act(kind);
   }
-  /// That of the greatest reduced radius.
+  /// The kind with the greatest reduced radius.
   [[nodiscard]] std::int32_t stiffest_wall_kind(std::int32_t a) const;
   /// The same with one restitution for all pairs.
   [[nodiscard]] Materials with_restitution(double restitution) const {

@@ -8,7 +8,7 @@ namespace polybed::dem {
 
 namespace {
 
-/// Cells on both sides of one: all there are at most once, none beyond an end that does not wrap.
+/// Cells on both sides of one: each at most once, none beyond an end that does not wrap.
 struct Span {
   std::array<int, 3> cell{}, offset{};
   int count = 0;
@@ -38,8 +38,8 @@ std::uint64_t spread_bits(std::uint64_t x) {
   return (x | x << 2) & 0x1249249249249249ULL;
 }
 
-/// Halves the number of cells along the longest direction until there are not many more than particles: a few small
-/// ones in a box for large ones would else have more cells than memory.
+/// Halves the number of cells along the longest direction until it is not much above the number of particles: a few
+/// small particles in a box for large ones would otherwise need too many cells for memory.
 void widen_cells(std::array<int, 3>& count, std::size_t particles) {
   const double most = 1e5 + 64 * double(particles);
   while (double(count[0]) * count[1] * count[2] > most) {
@@ -61,7 +61,7 @@ NeighbourSearch::NeighbourSearch(const Box& box, const Materials& materials, dou
   std::vector<double> diameters;
   for (const Species& species : materials.species()) diameters.push_back(2 * species.radius);
   std::sort(diameters.begin(), diameters.end());
-  // From the largest downwards: a level more pays where its cells have less than half the volume.
+  // From the largest downwards: another level pays if its cells have less than half the volume.
   constexpr double worth_a_level = 1.25;
   for (auto d = diameters.rbegin(); d != diameters.rend(); ++d)
     if (levels_.empty() || worth_a_level * (*d + reach) < levels_.back().cell) levels_.emplace_back().cell = *d + reach;
@@ -93,7 +93,7 @@ void NeighbourSearch::lay_out(const std::array<bool, 3>& whole) {
         }
         extent = high - low;
       }
-      // A wider cell is as right as a narrower one is wrong: wrapping ones are stretched to fill the box.
+      // Wider cells are safe, narrower ones are not: wrapping cells are stretched to fill the box.
       const double most = double(std::cbrt(4.0 * double(near_.size()) + 64)) * 64;
       level.count[k] = std::max(1, int(std::min(std::floor(extent / level.cell), most)));
       level.low[k] = low;
@@ -111,7 +111,7 @@ void NeighbourSearch::lay_out(const std::array<bool, 3>& whole) {
       }
     }
   }
-  // With so few rows of a sheared box that one is met directly and as an image, all cells of a row are near.
+  // If a sheared box has so few rows that one is met directly and as an image, all cells in a row are near.
   for (Level& level : levels_)
     if (box_.shear_rate != 0 && level.count[1] < 4) {
       level.count[0] = 1;
@@ -144,8 +144,8 @@ void NeighbourSearch::sort_in(const Particles& particles) {
   }
 }
 
-/// Pairs of particle i with those of a level: of coarser ones all, of its own each once: those in half of the cells
-/// around, and in its cell those with a higher number; with so few cells that one lies on both sides, by the ids.
+/// Pairs of particle i with a level: all on coarser levels, each once on its own: those in half of the surrounding
+/// cells, and those with a higher number in its cell; by the ids if cells are so few that one lies on both sides.
 void NeighbourSearch::search(const Particles& particles, std::size_t i, std::size_t l, const Images& images,
                              std::vector<Contacts::Pair>& pairs) {
   const Level& level = levels_[l];
@@ -158,7 +158,7 @@ void NeighbourSearch::search(const Particles& particles, std::size_t i, std::siz
   const Span beside = around(level.place(x[0], 0), level.count[0], level.wraps[0]);
   for (int row = 0; row < height.count; ++row) {
     const int cy = height.cell[std::size_t(row)], oy = height.offset[std::size_t(row)];
-    // Across the joined faces of a sheared box the cells beside are those beside the image.
+    // Across the joined faces of a sheared box the neighbouring cells are the image's.
     const int boxes = cy - at_y > 1 ? -1 : (cy - at_y < -1 ? 1 : 0);
     const Span width =
         unsheared || boxes == 0
@@ -184,7 +184,7 @@ void NeighbourSearch::search(const Particles& particles, std::size_t i, std::siz
   }
 }
 
-/// Rules out most candidates without a branch on images; not in a sheared box, where these move along each other.
+/// Excludes most candidates without a branch on images; not in a sheared box, where images move along each other.
 bool NeighbourSearch::may_be_near(const Place& here, const Place& there) const {
   constexpr double round_off = 1 + 1e-12;
   const double near = here.radius + there.radius + reach_;
@@ -218,7 +218,7 @@ void NeighbourSearch::add_if_near(const Particles& particles, std::size_t i, std
   if (2 * near > narrowest_) images.each_other(d, nearest, add);
 }
 
-/// Between two searches a run needs the memory for contacts.
+/// Between two searches the contacts need the memory.
 void NeighbourSearch::release() {
   std::vector<Vector>().swap(near_);
   for (Level& level : levels_) {

@@ -1,5 +1,5 @@
-// Which pairs may touch before a list is made again: a search in cells by levels of size, so that its cost hardly
-// depends on how different the particles are.
+// Finds the pairs that can touch before the next rebuild: a search in cells by levels of size, whose cost hardly
+// depends on the ratio of sizes.
 #pragma once
 
 #include <cstdint>
@@ -15,33 +15,33 @@ namespace polybed::dem {
 
 class NeighbourSearch {
  public:
-  /// \param reach  skin and the longest pair effect, m: pairs nearer than this are listed
+  /// \param reach  skin plus range of the longest pair effect, m: nearer pairs are listed
   NeighbourSearch(const Box& box, const Materials& materials, double reach);
 
-  /// Pairs with at least one owned particle whose surfaces are nearer than the reach; the first has the lower id.
-  /// Pairs that need no ghost come first. In a box of less than twice that distance across, a pair may be listed with
-  /// several images of the second, of which the nearest comes first and the others next.
-  /// \param centre  of the space of these particles: of directions in which they do not fill the box, images are
-  ///                taken near it   \param whole  directions in which they do
+  /// Pairs with at least one owned particle whose surfaces are within the reach; the first has the lower id. Pairs that
+  /// need no ghost come first. In a box less than twice that distance across, a pair can be listed with several images
+  /// of the second: the nearest one first, then the others.
+  /// \param centre  of the space of these particles: in directions in which they do not fill the box, images are taken
+  /// near it   \param whole  directions in which they do
   void find_pairs(const Particles& particles, double time, const Vector& centre, const std::array<bool, 3>& whole,
                   Contacts& contacts);
-  /// Owned particles and walls likewise.
+  /// Pairs of owned particles and walls, likewise.
   void find_walls(const Particles& particles, std::vector<Contacts::Pair>& pairs) const;
 
-  /// Pairs looked at in the last search.
+  /// Number of pairs checked in the last search.
   [[nodiscard]] std::uint64_t candidates() const { return candidates_; }
-  /// The particles in an order in which near ones are near.
+  /// An order of the particles in which neighbours are close together.
   [[nodiscard]] std::vector<std::int32_t> order(const Particles& particles) const;
 
  private:
-  /// Cells of one size and in them the particles that are no larger, but too large for a finer level.
+  /// Cells of one size, with the particles that fit them but are too large for a finer level.
   struct Level {
-    double cell = 0;  ///< m, at least
+    double cell = 0;  ///< minimum, m
     Vector low{}, inverse{};
     std::array<int, 3> count{};
     std::array<bool, 3> wraps{};
     std::vector<std::int32_t> start, member;
-    std::vector<Place> place_of_member;  ///< side by side, as cells are read
+    std::vector<Place> place_of_member;  ///< contiguous, as cells are read
 
     [[nodiscard]] int place(double x, std::size_t axis) const;
     /// Whether no cell lies on both sides of another.
@@ -68,8 +68,8 @@ class NeighbourSearch {
   static constexpr double far_away = std::numeric_limits<double>::infinity();
   double narrowest_ = far_away;                  ///< extent of the box where it is joined, m
   Vector period_{far_away, far_away, far_away};  ///< m
-  std::vector<Level> levels_;                    ///< from the smallest particles' to the largest's
-  std::vector<Vector> near_;                     ///< positions with images taken near the centre
+  std::vector<Level> levels_;                    ///< from the smallest particles to the largest
+  std::vector<Vector> near_;                     ///< positions, with images taken near the centre
   std::uint64_t candidates_ = 0;
 };
 

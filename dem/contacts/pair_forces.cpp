@@ -42,7 +42,7 @@ void add_moment(ContactBatch& b, double per_torque) {
     }
 }
 
-/// Empties the first rows of the memory of pairs within the reach of cohesion that do not touch: a new contact has
+/// Clears the first rows of the memory for pairs within the range of cohesion that do not touch: a new contact has
 /// none.
 void forget_open(ContactBatch& b, int rows) {
   const int n = b.padded();
@@ -50,7 +50,7 @@ void forget_open(ContactBatch& b, int rows) {
     for (int c = 0; c < n; ++c) b.memory[m][c] = b.overlap[c] > 0 ? b.memory[m][c] : 0;
 }
 
-/// Whether a contact is deeper than allowed, or its overlap is not a number.
+/// Whether a contact is deeper than allowed, or its overlap is NaN.
 bool any_deeper(const ContactBatch& b, double max_overlap) {
   int deeper = 0;
   for (int c = 0; c < b.count; ++c) {
@@ -99,7 +99,7 @@ void add_to_pair(const ContactBatch& b, int c, Load& first, Load& second) {
 PairForces::PairForces(const Box& box, const Materials& materials, const PairLaws& laws, FixedPoint force,
                        FixedPoint torque, double max_overlap)
     : loader_(box, materials, laws.reach()), laws_(laws), force_(force), torque_(torque), max_overlap_(max_overlap) {
-  // Beyond the last contact of a batch its loops run over a pair that does nothing.
+  // Loops run beyond the last contact of a batch, over a pair without effect.
   std::fill_n(batch_.distance[0], ContactBatch::width, 1.0);
   std::fill_n(batch_.radius_i, ContactBatch::width, 0.25);
   std::fill_n(batch_.radius_j, ContactBatch::width, 0.25);
@@ -125,7 +125,7 @@ void PairForces::add_film(double dt, bool wall) {
   for (int c = 0; c < batch_.padded(); ++c) batch_.normal[c] += force[c];
 }
 
-/// A pair across ranks is computed on both, and counted where its first particle is at home.
+/// A pair across ranks is computed on both ranks, and counted on its first particle's owner.
 void PairForces::mark_counted(std::size_t owned) {
   for (int c = 0; c < batch_.count; ++c) counted_[c] = std::size_t(batch_.first[c]) < owned ? 1 : 0;
 }
@@ -134,14 +134,14 @@ void PairForces::watch_overlap(bool wall) {
   if (!core::in_vectors<any_deeper>(batch_, max_overlap_)) return;
   for (int c = 0; c < batch_.count; ++c) {
     const double excess = batch_.overlap[c] - 2 * max_overlap_ * std::min(batch_.radius_i[c], batch_.radius_j[c]);
-    // Turned round, so that the distance of two centres at one place, whose n is not a number, is too small as well.
+    // Written so that two coinciding centres, whose n is NaN, also count as too close.
     if (!(excess <= trouble_.excess))
       trouble_ = {std::isnan(batch_.speed[c]) ? std::numeric_limits<double>::infinity() : excess, batch_.pair[c], wall};
   }
 }
 
-/// What is done with a batch once it is full: laws, and the memory of its contacts. Of a batch in trouble nothing is
-/// taken over: the run stops, and numbers that are none must not reach the state that it leaves behind.
+/// Applies the laws to a full batch and updates its contacts' memory. Discards an invalid batch, so that no NaN reaches
+/// the final checkpoint.
 void PairForces::treat(const Particles& particles, Contacts& contacts, bool wall, double dt) {
   watch_overlap(wall);
   if (trouble_.pair >= 0) {

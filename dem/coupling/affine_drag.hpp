@@ -1,4 +1,4 @@
-// Drag of a sheared box: of a fluid that moves with the box's own flow, everywhere, whatever the particles do.
+// Drag in a sheared box whose fluid follows the box's own flow, whatever the particles do.
 #pragma once
 
 #include <vector>
@@ -15,20 +15,20 @@
 
 namespace polybed::dem {
 
-/// Drag k_j (gamma y e_x - U) on each particle, k_j = 3 pi mu D_j eps f_j with f_j of the whole box's composition and
-/// voidage at no slip: the part of the wet stress boxes that stands for the fluid they have not. With k constant the
-/// motion under it is known: it is integrated exactly, so that no step is too long for it. A box without it holds none.
+/// Drag k_j (gamma y e_x - U) on each particle, k_j = 3 pi mu D_j eps f_j with f_j for the composition and voidage of
+/// the whole box at zero slip: it replaces the fluid that wet stress boxes lack. For constant k the motion under it is
+/// integrated exactly, so that no step is too long for it. Other boxes contain none.
 class AffineDrag final : public KeptPart {
  public:
-  /// \param solids  in the box  \param force, energy  units of the forces and of the work
+  /// \param solids  in the box  \param force, energy  units for the forces and the work
   AffineDrag(const core::Scene& scene, const Materials& materials, const SolidsVolume& solids, const Vector& box,
              FixedPoint force, FixedPoint energy);
 
-  /// k_j of a species, kg/s.
+  /// k_j for a species, kg/s.
   [[nodiscard]] double coefficient(std::size_t species) const { return drag_[species]; }
 
   struct Kick {
-    Four dv, free;  ///< change of the velocity, and what it would be without drag, m/s; three numbers count
+    Four dv, free;  ///< change of the velocity, and the change without drag, m/s; three numbers count
   };
   /// U <- u + (U - u) exp(-x) + free (1 - exp(-x))/x, x = k h/m, u = gamma y e_x. \param h  s
   [[nodiscard]] Kick kick(const Particles& particles, std::size_t i, double h) const {
@@ -41,7 +41,7 @@ class AffineDrag final : public KeptPart {
     kick.dv = mean * (kick.free + x * (flow - four_at(m.v)));
     return kick;
   }
-  /// Keeps the work of the drag in a kick, before the velocity changes.
+  /// Adds the work of the drag in a kick, before the velocity changes.
   void account(const Particles& particles, std::size_t i, const Kick& kick, double, WorkShare share) {
     const Motion& m = particles.motion[i];
     double work = 0;
@@ -61,10 +61,10 @@ class AffineDrag final : public KeptPart {
   std::vector<double> drag_;  ///< k_j, kg/s
   double shear_rate_;
   FixedPoint force_, energy_;
-  EnergySum work_;  ///< on this rank's particles since the start, at rest with the bottom of the box
+  EnergySum work_;  ///< on this rank's particles since the start, in the frame of the box's bottom
 };
 
-/// Whether the drag of a scene is that of a sheared box.
+/// Whether the drag in a scene is for a sheared box.
 [[nodiscard]] inline bool has_affine_drag(const core::Scene& scene) {
   return scene.fluid.present() && scene.column.shear_rate != 0 && core::acts(scene, "drag");
 }

@@ -1,4 +1,4 @@
-// The fluid between particles, to the bit, as one column on however many ranks.
+// Reads and writes the fluid between particles, to the bit, as one column for any number of ranks.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -15,7 +15,7 @@ namespace polybed::dem {
 
 using core::Field;
 
-/// A field of the whole column, on every rank.
+/// A field for the whole column, on every rank.
 Field Coupling::of_column(const Field& own) const {
   if (!exchange_) return own;
   GridExchange all = *exchange_;
@@ -38,7 +38,7 @@ Coupling::Column Coupling::column() const {
   return all;
 }
 
-/// What this rank's fluid has of a field of the whole column.
+/// Copies this rank's part of a field for the whole column.
 void Coupling::take_own(const Field& column, Field& own) const {
   if (!exchange_) {
     own = column;
@@ -119,7 +119,7 @@ void Coupling::read_loads(const Restored& from) {
     motion_.load[i] = read_load(loads.data() + row.at(from.particles.id[i]) * load_width);
 }
 
-/// What side forces had kept of the particles; of a run that had none those without a memory begin with nothing.
+/// Restores the side forces' data of the particles; forces without data in the checkpoint start with none.
 void Coupling::read_sides(const Restored& from) {
   SideRows& rows = sides_.rows();
   const bool any =

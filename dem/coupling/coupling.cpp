@@ -22,7 +22,7 @@ using core::Index;
 
 namespace {
 
-/// Relative residual of the pressure: what it leaves of div J in a step of the fluid.
+/// Relative residual of the pressure: sets the remaining div J in a step of the fluid.
 constexpr double pressure_tolerance = 1e-8;
 
 std::vector<double> diameters(const Materials& materials) {
@@ -39,8 +39,8 @@ double width_of(const core::Scene& scene, const Materials& materials, std::int64
   return kernel_of(scene, cell, materials.greatest_diameter(), count).width;
 }
 
-/// What few particles see of their own wakes; none where the formula does not hold: in two dimensions, without viscous
-/// stress, where a wake never decays, or in cells so small that a particle is most of what it sees.
+/// The wakes of few particles; none where the formula is invalid: in two dimensions, without viscous stress, where a
+/// wake never decays, or in cells so small that a particle sees mostly itself.
 std::optional<OwnWake> own_wake_of(const core::Scene& scene, const core::Grid& grid, double width, double diameter,
                                    std::int64_t count) {
   const bool bed = is_fed(scene) || count >= std::int64_t(fluid::fewest_of_a_bed);
@@ -54,12 +54,12 @@ std::optional<OwnWake> own_wake_of(const core::Scene& scene, const core::Grid& g
   return creeping < most ? std::optional(wake) : std::nullopt;
 }
 
-/// Whether each rank solves for a block of the fluid. The kernel's smoothing wants the whole column.
+/// Whether each rank solves for a block of the fluid. The kernel's smoothing needs the whole column.
 bool shares_fluid(const core::Scene& scene, const Materials& materials, std::int64_t count) {
-  constexpr std::size_t worth_sharing = 20'000;  // cells: below, messages cost more than they save
+  constexpr std::size_t worth_sharing = 20'000;  // cells: below it, messages cost more than they save
   const core::FluidRanks wish = scene.dem.fluid_ranks;
   const bool wide = width_of(scene, materials, count) > 0;
-  if (wish == core::FluidRanks::shared && wide)  // of a list, whose particles no rule counts
+  if (wish == core::FluidRanks::shared && wide)  // for a list, whose particles no rule counts
     throw core::StartError(std::vector{scene.places.problem(
         {"dem.fluid_ranks"},
         "dem.fluid_ranks = \"shared\" does not go with a kernel of diffusion, which needs the whole column: use "
@@ -68,13 +68,13 @@ bool shares_fluid(const core::Scene& scene, const Materials& materials, std::int
   return wish == core::FluidRanks::shared || core::grid_of(scene.column, nullptr).cell_count() >= worth_sharing;
 }
 
-/// Changes over a step of the fluid, on faces.
+/// Changes in a step of the fluid, on faces.
 struct FluidChange {
   const core::FaceField &velocity, &gradient;  ///< m/s, Pa/m
   const core::FaceField* convected;            ///< of the velocity, m/s; null: no particle has added mass
 };
 
-/// What the change of the fluid would have done to the particles in its step: see fluid::ParticlePhase.
+/// The effect of the fluid's change on the particles over the step: see fluid::ParticlePhase.
 template <bool round>
 void push_by(FluidChange change, double dt, const Gather& gather, FluidMotion& motion, Particles& particles) {
   for (std::size_t i = 0; i < particles.owned; ++i) {
@@ -116,7 +116,7 @@ Coupling::Coupling(const core::Scene& scene, const Materials& materials, std::sh
       every_(every_of(scene)),
       held_(scene.bed.held),
       dt_(dt),
-      // The greatest force makes 2^62 units: its square 2^32 of these, of which a sum has room for a thousand million.
+      // The greatest force has 2^62 units: its square 2^32 of these, and a sum has room for a thousand million of them.
       per_square_(std::ldexp(units.force.per_unit * units.force.per_unit, -92)) {
   if (const auto wake =
           own_wake_of(scene, core::whole_column(flow_.grid()), width_, materials.greatest_diameter(), count))
@@ -163,7 +163,7 @@ void Coupling::hold(const Particles& particles) {
   sides_.hold(motion_.load);
 }
 
-/// Finds the loads again at the end of a fluid step and applies the correction for their change.
+/// Recomputes the loads at the end of a fluid step and applies the correction for their change.
 void Coupling::correct(Particles& particles) {
   before_ = motion_.load;
   forces_.find(particles, gather_, motion_.load, own());
@@ -234,7 +234,7 @@ void Coupling::collect(const Particles& particles) {
   require_voidage();
 }
 
-/// \pre the voidage is that of now
+/// \pre the voidage is up to date
 void Coupling::require_voidage() const {
   const core::Grid& grid = flow_.grid();
   double least = 1;

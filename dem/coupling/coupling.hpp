@@ -1,12 +1,11 @@
-// Particles and fluid together: what each hears of the other, and when.
+// Coupling of particles and fluid: exchanged data, and order of the steps.
 //
-// During a fluid step the fluid's fields are constant, and so are the loads that each particle found at its start. The
-// particle moves with its drag integrated exactly, and the impulse that it takes is kept. At the end of the step the
-// loads are found again at the new places, and each particle gets half of their change (trapezoidal rule). Side forces
-// depend on spins and on earlier steps; with them all loads are found in every particle step. Then the particles'
-// volumes and impulses go to the fluid, the fluid takes its step, and each particle gets by one kick what the change of
-// the fluid would have done to it meanwhile. The fluid's equations contain this kick, so that the momentum of both
-// together is conserved whatever the length of the steps.
+// During a fluid step the fluid's fields and the loads on each particle are constant. The particle moves with exactly
+// integrated drag, and its impulse is summed. At the end of the step the loads are recomputed at the new places, and
+// each particle receives half of their change (trapezoidal rule). Side forces depend on spins and on earlier steps;
+// with them all loads are recomputed in every particle step. Then the fluid receives the particles' volumes and
+// impulses and takes its step. Each particle then receives one impulse: the effect of the fluid's change over the step.
+// The fluid's equations include this impulse, so that total momentum is conserved for any length of the steps.
 #pragma once
 
 #include <memory>
@@ -36,32 +35,32 @@ class Coupling final : public KeptPart {
   struct Units {
     FixedPoint force, energy;  ///< N, J
   };
-  /// \param ranks  that share the box; null: it is all here  \param units  of the loads and of the fluid's work
+  /// \param ranks  that share the box; null: it is all here  \param units  for the loads and the fluid's work
   /// \param dt  of the particles, s  \param speed  greatest expected, m/s  \param volume, count  of all particles, m3
   Coupling(const core::Scene& scene, const Materials& materials, std::shared_ptr<const core::Ranks> ranks,
            core::Timers& timers, Units units, double dt, double speed, double volume, std::int64_t count);
   ~Coupling() override;
 
-  /// The fluid between the particles at the start of a run.
+  /// Starts the fluid between the particles at the beginning of a run.
   void begin(Particles& particles);
   void begin_from_other(Particles& particles) {
     motion_.set_work({});
     begin(particles);
   }
-  /// A fixed bed: instead of moving, particles only take the fluid's drag for a step.
+  /// For a fixed bed: the particles do not move and only receive the fluid's drag over a step.
   void hold(const Particles& particles);
-  /// Finds the loads at the particles' places, unless loads are constant during a fluid step.
+  /// Computes the loads at the particles' places, unless loads are constant during a fluid step.
   void find_forces(const Particles& particles, std::uint64_t timed);
-  /// What the fluid does to their spins in a step.
+  /// Applies the fluid's torques to the spins in a step.
   void turn(Particles& particles) { sides_.turn(particles, motion_); }
-  /// Whether the fluid takes its step after so many of the particles.
+  /// Whether the fluid's step is due after this number of particle steps.
   [[nodiscard]] bool due(std::int64_t steps) const { return steps % every_ == 0; }
   /// The fluid's step to a time; each particle then receives the impulse of the change of the fluid.
   void advance(Particles& particles, double time, Arrivals arrivals);
   /// Before particles change ranks and places, and after.
   void send_ahead(Exchange& exchange, const Particles& particles);
   void settle_in(const Particles& particles);
-  /// Forgets what is kept of the particles that are about to be taken out.
+  /// Deletes the data of particles that are about to be removed.
   void let_go(const Outflow& outflow, const Particles& particles);
   /// From here on particles count as far as they have come in.
   void see(Arrivals arrivals) {
@@ -69,20 +68,20 @@ class Coupling final : public KeptPart {
   }
   /// Particles that have entered since the end of a step of the fluid: forces act on them from now on; nothing changes for the others. Collective. \param first  least id of those that have entered
   void take_in(const Particles& particles, std::int64_t first);
-  /// What a particle costs over what it costs to be in a contact: 5.5 was measured (docs/theory/parallel.md).
+  /// Cost of a particle relative to a contact's: 5.5 was measured (docs/theory/parallel.md).
   static constexpr std::int32_t work_of_particle = 5;
-  /// Whether the particles' steps may become shorter after so many: only between steps of the fluid, and without side
-  /// forces, which know the length of theirs.
+  /// Whether the particles' steps can become shorter after this number of steps: only between steps of the fluid, and
+  /// without side forces, which depend on the step length.
   [[nodiscard]] bool may_shorten(std::int64_t steps) const { return due(steps) && !sides_.present(); }
   void set_dt(const Particles& particles, double dt) {
     dt_ = dt;
     relax(particles);
   }
-  /// What comes next does not depend on what earlier steps have left behind.
+  /// Further solves do not depend on earlier steps.
   void restart() { flow_.forget(); }
   void write(core::Checkpoint& checkpoint, const Particles& particles, const core::Ranks* ranks) const override;
   void require(const core::Checkpoint& checkpoint) const override;
-  /// The fluid of a checkpoint, and what it does to the particles; or, where that had none, as at a start.
+  /// Restores the fluid and its forces on the particles from a checkpoint; without a fluid there, as at a start.
   void read(const Restored& from) override;
 
   [[nodiscard]] FluidMotion& motion() { return motion_; }
@@ -95,17 +94,17 @@ class Coupling final : public KeptPart {
   [[nodiscard]] SideForces& sides() { return sides_; }
   [[nodiscard]] const SideForces& sides() const { return sides_; }
   [[nodiscard]] int every() const { return every_; }
-  /// Sums of squares over this rank's particles and this process's fluid steps, in one unit: of the change of the force
-  /// during a step, and of the force at its end.
+  /// Sums of squares over this rank's particles and this process's fluid steps, in one unit: for the change of the
+  /// force during a step, and for the force at its end.
   struct Changes {
     EnergySum change, force;
   };
   [[nodiscard]] const Changes& changes() const { return changes_; }
-  /// Full width at half height of the kernel that averages, m; 0: bilinear weights alone.
+  /// Full width at half height of the averaging kernel, m; 0: bilinear weights alone.
   [[nodiscard]] double kernel_width() const { return width_; }
-  /// Mean net pressure on the distributor, less that at the outlet, Pa. Collective.
+  /// Mean net pressure on the distributor minus the outlet's, Pa. Collective.
   [[nodiscard]] double pressure_drop() const;
-  /// Largest solids fraction of a cell of this rank's block.
+  /// Largest solids fraction in a cell of this rank's block.
   [[nodiscard]] double most_solids() const;
   /// The fluid of the whole column, on every rank. Collective.
   struct Column {
@@ -113,10 +112,10 @@ class Coupling final : public KeptPart {
     std::vector<core::Field> fraction;    ///< phi_j
     core::FaceField velocity;             ///< U_f, m/s
     core::Field pressure;                 ///< net, Pa
-    core::Field total_pressure, density;  ///< of a compressible fluid, Pa, kg/m3; else empty
+    core::Field total_pressure, density;  ///< for a compressible fluid, Pa, kg/m3; else empty
   };
   [[nodiscard]] Column column() const;
-  /// curl U_f in the cells of the whole column, 1/s, as particles meet it. Collective.
+  /// curl U_f in the cells of the whole column, 1/s, as used for the particles. Collective.
   struct Vorticity {
     core::Grid grid;
     std::array<core::Field, 3> components;
@@ -147,9 +146,9 @@ class Coupling final : public KeptPart {
   void find_vorticity(core::FaceField velocity, std::array<core::Field, 3>& vorticity) const;
   [[nodiscard]] const OwnShare* own() const { return own_ ? &*own_ : nullptr; }
   [[nodiscard]] bool has_inertia() const { return forces_.has_added_mass() || sides_.has_inertia(); }
-  /// Whether loads are constant during a fluid step and corrected at its end. In a fixed bed no correction is needed.
+  /// Whether loads are constant during a fluid step and corrected at its end. A fixed bed needs no correction.
   [[nodiscard]] bool stand() const { return !sides_.present() && !held_; }
-  /// For the two kicks of a step.
+  /// Sets the coefficients for the two kicks of a step.
   void relax(const Particles& particles) { motion_.relax(particles, 0.5 * dt_); }
   /// Step of the fluid, s.
   [[nodiscard]] double interval() const { return every_ * dt_; }
@@ -160,10 +159,10 @@ class Coupling final : public KeptPart {
   std::vector<core::Field> fraction_;     ///< phi_j, [species][cell]
   core::Field at_ends_;                   ///< on the faces of bottom and top: force on particles per volume, N/m3
   std::optional<GridExchange> exchange_;  ///< absent: every rank has the whole fluid
-  /// On what this rank's particles touch; empty without an exchange.
+  /// On the cells that this rank's particles touch; empty without an exchange.
   std::vector<core::Field> fraction_here_;
   core::FaceField velocity_here_, gradient_here_;
-  std::array<core::Field, 3> vorticity_, vorticity_here_;  ///< empty where no effect asks for it
+  std::array<core::Field, 3> vorticity_, vorticity_here_;  ///< empty if no effect needs it
   double width_;
   fluid::Smoothing smoothing_;
   ParticleForces forces_;
@@ -171,7 +170,7 @@ class Coupling final : public KeptPart {
   fluid::ParticlePhase phase_;
   Scatter scatter_;
   Gather gather_;
-  std::optional<OwnShare> own_;  ///< absent: a particle is part of what it sees
+  std::optional<OwnShare> own_;  ///< absent: averages include the particle itself
   FluidMotion motion_;
   std::vector<KeptLoad> loads_on_the_way_;  ///< while particles change ranks
   KeptRows sides_on_the_way_;
@@ -180,7 +179,7 @@ class Coupling final : public KeptPart {
   double dt_;  ///< of the particles, s
   fluid::FlowStep last_;
   std::uint64_t steps_ = 0;
-  std::vector<FluidLoad> before_;  ///< of a step of the fluid, while it ends
+  std::vector<FluidLoad> before_;  ///< at the start of a fluid step, while it ends
   Changes changes_;
   double per_square_;  ///< units of changes_ in 1 N2
 };

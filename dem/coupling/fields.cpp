@@ -1,4 +1,4 @@
-// What particles give to the fluid and see of it as fields: averaged by the kernel, and sent where they are needed.
+// Fields from particles to the fluid and back: averaged with the kernel, and sent where they are needed.
 #include <algorithm>
 
 #include "core/numerics/blocks.hpp"
@@ -13,7 +13,7 @@ namespace polybed::dem {
 
 using core::Field;
 
-/// Nothing without a kernel of diffusion, or of an empty field.
+/// Does nothing without a diffusion kernel, or for an empty field.
 void Coupling::smooth(core::FaceField& field) const {
   for (int axis = 0; axis < flow_.grid().dimensions && smoothing_.present(); ++axis)
     if (Field& component = field[std::size_t(axis)]; !component.empty()) smoothing_.smooth_faces(component, axis);
@@ -32,8 +32,8 @@ void Coupling::smooth_sums() {
 
 bool Coupling::has_sloping_walls() const { return flow_.grid().metric && flow_.grid().metric->tapered(); }
 
-/// A sloping wall is stairs of cells. On faces that it closes particles see the upright velocity of the open faces
-/// beside them; otherwise those along the wall would feel half of the flow.
+/// A sloping wall consists of steps of cells. On closed faces particles see the vertical velocity of the adjacent open
+/// faces; otherwise particles along the wall would feel half of the flow.
 void Coupling::slip(core::FaceField& velocity) const {
   const core::Grid& grid = flow_.grid();
   if (!has_sloping_walls()) return;
@@ -44,16 +44,16 @@ void Coupling::slip(core::FaceField& velocity) const {
   for (std::size_t n = 1; n < taper.size(); ++n) {
     const int level = int(std::lround(taper[n].first / grid.spacing[1])) - grid.before[1];
     if (taper[n - 1].first != taper[n].first || level < 0 || level > grid.cells[1]) continue;
-    const core::Box ledge{{0, level, 0}, {grid.cells[0], level + 1, grid.cells[2]}};  // nothing flows along it
+    const core::Box ledge{{0, level, 0}, {grid.cells[0], level + 1, grid.cells[2]}};  // no flow along it
     core::for_each_row(grid, ledge, [&](core::Index begin, core::Index end) {
       std::copy(stairs.begin() + begin, stairs.begin() + end, velocity[1].begin() + begin);
     });
   }
 }
 
-/// The fields as particles see them.
+/// Prepares the fields for the particles.
 void Coupling::take_fields() {
-  if (exchange_) {  // never with a kernel of diffusion
+  if (exchange_) {  // never with a diffusion kernel
     if (sides_.needs_vorticity()) find_vorticity(flow_.state().velocity, vorticity_);
     return fetch();
   }
@@ -67,7 +67,7 @@ void Coupling::take_fields() {
   if (sides_.needs_vorticity()) gather_.take_vorticity(vorticity_);
 }
 
-/// Of the velocity as particles see it, which holds at the walls.
+/// From the velocity that particles see, which is extended to the walls.
 void Coupling::find_vorticity(core::FaceField velocity, std::array<Field, 3>& vorticity) const {
   flow_.boundaries().fill_velocity(velocity, fluid::WallSlip::no_slip);
   fluid::find_vorticity(flow_.grid(), velocity, vorticity);
@@ -99,7 +99,7 @@ void Coupling::settle_in(const Particles& particles) {
   fetch();
 }
 
-/// They are wholly beyond a face: nothing of them has been in the sums since then, and the fluid does not change.
+/// They are wholly beyond a face: they have not contributed to the sums since then, and the fluid does not change.
 void Coupling::let_go(const Outflow& outflow, const Particles& particles) {
   SideRows& rows = sides_.rows();
   std::size_t staying = 0;
@@ -115,7 +115,7 @@ void Coupling::let_go(const Outflow& outflow, const Particles& particles) {
   rows.numbers.resize(staying * rows.width);
 }
 
-/// What this rank's particles see of the fluid.
+/// Fetches the fluid's fields for this rank's particles.
 void Coupling::fetch() {
   core::FaceField slipping;
   if (has_sloping_walls()) slip(slipping = flow_.state().velocity);
@@ -136,7 +136,7 @@ void Coupling::fetch() {
   if (sides_.needs_vorticity()) gather_.take_vorticity(vorticity_here_);
 }
 
-/// Fields on faces of the block become those on what this rank's particles touch.
+/// Converts fields on the block's faces to the faces that this rank's particles touch.
 void Coupling::here(std::initializer_list<core::FaceField*> fields) const {
   std::vector<std::pair<const Field*, Field*>> list;
   std::vector<core::FaceField> column(fields.size());

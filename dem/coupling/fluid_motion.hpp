@@ -1,5 +1,5 @@
-// What the fluid does to the particles, and how they move under it: the drag of a frozen fluid is integrated exactly,
-// so that no step is too long for it.
+// Effect of the fluid on the particles, and their motion: drag in a frozen fluid is integrated exactly, so that no step
+// is too long for it.
 #pragma once
 
 #include <cmath>
@@ -14,19 +14,19 @@
 
 namespace polybed::dem {
 
-/// What a particle feels of the fluid until its place or the fluid changes, and what it has given to it meanwhile.
+/// Loads of the fluid on a particle until its place or the fluid changes, and their reaction meanwhile.
 struct FluidLoad {
-  Vector velocity{};  ///< U_f where it is, m/s
+  Vector velocity{};  ///< U_f at its place, m/s
   double drag = 0;    ///< k: pure drag over the slip U_f - U_p, kg/s
-  Vector force{};     ///< what else the fluid does: -V grad p, N
-  Vector impulse{};   ///< that drag and added mass have given it since the fluid's last step, kg m/s
-  double added = 0;   ///< added mass, kg; last, for a vector is read with the number behind it
+  Vector force{};     ///< other force from the fluid: -V grad p, N
+  Vector impulse{};   ///< from drag and added mass since the fluid's last step, kg m/s
+  double added = 0;   ///< added mass, kg; last, as a vector is read with the next number
 };
 
-/// With which velocity the work of other forces in a kick is counted: v + share dv, v before the kick and dv its
-/// change. A weight does work along the drift beside the kick. So does a contact's force, by the thesis scheme; by the
-/// synchronised one it has the velocity at the time of the force (see Ledger). The fluid's work is what the kinetic
-/// energy changes by less theirs: with a slip that relaxes far within a step the mean of v and v + dv is neither.
+/// Velocity for the work of other forces in a kick: v + share dv, with v before the kick and dv its change. A weight
+/// works along the drift beside the kick. A contact's force does too in the thesis scheme; in the synchronised one it
+/// uses the velocity at the time of the force (see Ledger). The fluid's work is the change of kinetic energy minus that
+/// work: if the slip relaxes far within a step, the mean of v and v + dv gives neither.
 struct WorkShare {
   double weight, load;
 
@@ -37,7 +37,7 @@ struct WorkShare {
 /// (1 - exp(-x))/x, 1 at 0; x >= 0.
 [[nodiscard]] inline double mean_decay(double x) {
   constexpr double small = 0.02;  // below it the next term of the series is under 1e-16
-  if (x < small) {                // in pairs, as each product waits for the one before
+  if (x < small) {                // in pairs, as each product waits for the previous one
     const double xx = x * x;
     return ((1 - x * (1.0 / 2)) + xx * (1.0 / 6 - x * (1.0 / 24))) +
            xx * xx * ((1.0 / 120 - x * (1.0 / 720)) + xx * (1.0 / 5040));
@@ -47,13 +47,13 @@ struct WorkShare {
 
 /// Correction of a particle at the end of a fluid step, for a load that was constant during the step.
 struct LoadChange {
-  Vector dv{}, impulse{};               ///< change of velocity, m/s; impulse that drag gives, kg m/s
+  Vector dv{}, impulse{};               ///< change of velocity, m/s; impulse from drag, kg m/s
   double square = 0, force_square = 0;  ///< squares of the change of the force and of the force at the end, N2
 };
 
-/// Half the change of the force, applied for the fluid step with the same relaxation by drag as in a kick. It makes the
-/// error of constant loads second order in the fluid step; without it the error is first order.
-/// \param before, after  loads found at the start and at the end of the step  \param dt  fluid step, s
+/// Half the change of the force, applied over the fluid step with the same relaxation by drag as in a kick. It makes
+/// the error of constant loads second order in the fluid step, instead of first order.
+/// \param before, after  loads at the start and at the end of the step  \param dt  fluid step, s
 [[nodiscard]] inline LoadChange change_of(const FluidLoad& before, const FluidLoad& after, const Motion& m, double dt) {
   LoadChange change;
   const double inertia = 1 / m.inverse_mass + before.added, s = mean_decay(after.drag * dt / inertia);
@@ -70,7 +70,7 @@ struct LoadChange {
 
 class FluidMotion {
  public:
-  /// \param fluid_density  kg/m3  \param gravity  m/s2  \param force, energy  units of loads and of the work
+  /// \param fluid_density  kg/m3  \param gravity  m/s2  \param force, energy  units for loads and work
   /// \param counts_work  whether the fluid's work is summed
   FluidMotion(const Materials& materials, double fluid_density, Vector gravity, FixedPoint force, FixedPoint energy,
               bool counts_work = true)
@@ -82,14 +82,14 @@ class FluidMotion {
     }
   }
 
-  /// What happens to a particle in a time h under a load, the fluid, and its weight less the displaced fluid's. Of each
-  /// the first three numbers count.
+  /// Motion of a particle over a time h under a load, the fluid, and its buoyant weight. The first three numbers of
+  /// each count.
   struct Kick {
     Four dv;    ///< change of its velocity, m/s
-    Four free;  ///< what it would be without drag, m/s
+    Four free;  ///< the change without drag, m/s
   };
-  /// U_f is frozen: U <- U_f + (U - U_f) exp(-kappa h) + (1 - exp(-kappa h)) a/kappa, kappa = k/M, M the mass with the
-  /// added one, a the acceleration by everything but drag. \param h  s, as in the last relax()
+  /// U_f is frozen: U <- U_f + (U - U_f) exp(-kappa h) + (1 - exp(-kappa h)) a/kappa, kappa = k/M, M the mass plus the
+  /// added mass, a the acceleration from all forces but drag. \param h  s, as in the last relax()
   [[nodiscard]] Kick kick(const Particles& particles, std::size_t i, double h) const {
     const FluidLoad& f = load[i];
     const Relaxation& r = relaxation_[i];
@@ -101,8 +101,8 @@ class FluidMotion {
     kick.dv = r.mean * (kick.free + r.x * (four_at(f.velocity) - four_at(particles.motion[i].v)));
     return kick;
   }
-  /// Computes the coefficients that all kicks of a time h share while drag and added mass are constant. To be called
-  /// when these, h or the particles have changed, and before the first kick. \param h  s
+  /// Computes the coefficients common to all kicks over a time h while drag and added mass are constant. Call it when
+  /// these, h or the particles have changed, and before the first kick. \param h  s
   void relax(const Particles& particles, double h) {
     relaxation_.resize(load.size());
     if (counts_work_) work_of_kick_.resize(load.size());
@@ -115,7 +115,7 @@ class FluidMotion {
     relaxation_[i] = {per_inertia, share, x, mean_decay(x)};
   }
 
-  /// Keeps what a kick takes from the fluid, before the velocity changes: the impulse alone, or its work too.
+  /// Sums a kick's effect on the fluid, before the velocity changes: the impulse alone, or also its work.
   void account_impulse(const Particles& particles, std::size_t i, const Kick& kick) {
     FluidLoad& f = load[i];
     const double inertia = mass_[std::size_t(particles.species[i])] + f.added;
@@ -131,9 +131,9 @@ class FluidMotion {
         (v + 0.5 * dv) * mass * dv - (v + share.weight * dv) * mass * (gravity * h) - (v + share.load * dv) * contacts;
     work_of_kick_[i] = work[0] + work[1] + work[2];
   }
-  /// Adds what the kicks of all particles have done to the work: after them, so that no kick waits for the sum.
+  /// Adds the work of all particles' kicks: afterwards, so that no kick waits for the sum.
   void sum_work() { work_.add(work_of_kick_, energy_.per_unit); }
-  /// A change of velocity that the fluid alone has made.
+  /// Adds a change of velocity that the fluid alone has caused.
   void account_coupling(const Motion& m, const Vector& dv) {
     if (!counts_work_) return;
     double work = 0;
@@ -144,19 +144,19 @@ class FluidMotion {
   /// Other work of the fluid, J.
   void account_work(double work) { work_.add(work * energy_.per_unit); }
 
-  /// Work of the fluid on this rank's particles since the start, its buoyancy included; 0 where it is not counted.
+  /// Work of the fluid on this rank's particles since the start, including buoyancy; 0 if it is not counted.
   [[nodiscard]] EnergySum work() const { return counts_work_ ? work_ : EnergySum(); }
   [[nodiscard]] bool counts_work() const { return counts_work_; }
   void set_work(const EnergySum& work) { work_ = work; }
-  /// Gravity less buoyancy per mass of a species, m/s2; three numbers count.
+  /// Buoyant weight per mass of a species, m/s2; three numbers count.
   [[nodiscard]] const std::array<double, 4>& net_gravity(std::int32_t species) const {
     return net_gravity_[std::size_t(species)];
   }
 
-  std::vector<FluidLoad> load;  ///< of the owned particles
+  std::vector<FluidLoad> load;  ///< for the owned particles
 
  private:
-  /// Of a kick: 1/M, m/M, kappa h and the mean of exp(-kappa t) over it.
+  /// For a kick: 1/M, m/M, kappa h and the mean of exp(-kappa t) over it.
   struct Relaxation {
     double per_inertia, share, x, mean;
   };
@@ -167,7 +167,7 @@ class FluidMotion {
   FixedPoint force_, energy_;
   bool counts_work_;
   std::vector<Relaxation> relaxation_;
-  std::vector<double> work_of_kick_;  ///< of the fluid on each particle, J; empty where it is not counted
+  std::vector<double> work_of_kick_;  ///< of the fluid on each particle, J; empty if not counted
   EnergySum work_;
 };
 

@@ -26,10 +26,10 @@ core::FieldValues components(const core::Grid& grid, const core::FaceField& u) {
   return {u.begin(), u.begin() + grid.dimensions};
 }
 
-/// Share of a cell below which a species counts as absent from it: what a smoothing kernel has left there.
+/// Share of a cell below which a species counts as absent from it: residues of a smoothing kernel.
 constexpr double no_particles = 1e-12;
 
-/// 1 - sum phi_j: of a run taken up again, too, before the fluid's next step.
+/// 1 - sum phi_j: also valid in a resumed run before the fluid's next step.
 Field voidage_of(const core::Grid& grid, const std::vector<Field>& fraction) {
   Field eps = core::make_field(grid, 1);
   for (const Field& phi : fraction)
@@ -37,7 +37,7 @@ Field voidage_of(const core::Grid& grid, const std::vector<Field>& fraction) {
   return eps;
 }
 
-/// What is smoothed counts for the open part of a cell.
+/// Converts smoothed sums to the open part of a cell.
 void per_open_volume(const core::Grid& grid, Field& sums) {
   if (!grid.metric) return;
   for (std::size_t c = 0; c < sums.size(); ++c) sums[c] *= grid.metric->per_volume[c];

@@ -17,7 +17,7 @@ FluidRecord::FluidRecord(const Coupling& coupling, const core::Ranks* ranks, con
   totals_.account = {totals_.mass, 0, 0};
 }
 
-/// What stands in the fields now.
+/// Records the present content of the fields.
 void FluidRecord::look() {
   const fluid::Flow& flow = coupling_.flow();
   totals_.pressure_drop = coupling_.pressure_drop();

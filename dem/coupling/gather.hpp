@@ -1,5 +1,5 @@
-// From the fluid to particles: what each of them sees of the fields around it, T(2.4)-(2.10), with the weights it
-// gives.
+// From the fluid to particles: field values at each of them, T(2.4)-(2.10), with the same weights as in the other
+// direction.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@
 
 namespace polybed::dem {
 
-/// What a particle sees of the solids around it.
+/// Solids around a particle.
 struct Surroundings {
   double fraction = 0;  ///< phi, all species
   double per_mean = 0;  ///< sum phi_j/D_j, 1/m
@@ -19,14 +19,14 @@ struct Surroundings {
   double own = 0;       ///< phi of its own species
 };
 
-/// What it sees of the fluid.
+/// Fluid at a particle.
 struct Stream {
   Vector velocity{}, gradient{};  ///< U_f, m/s; grad p, Pa/m
 };
 
 class Gather {
  public:
-  /// \param round  weights of a round column: null in a box
+  /// \param round  weights in a round column: null in a box
   Gather(const core::Grid& grid, std::vector<double> diameter, std::shared_ptr<const RoundWeights> round);
   Gather(const core::Grid& grid, std::vector<double> diameter)
       : Gather(grid, std::move(diameter), round_weights(grid)) {}
@@ -34,10 +34,10 @@ class Gather {
   /// Lays the fields out side by side. \param fraction  phi_j, [species][cell]
   void take(const std::vector<core::Field>& fraction, const core::FaceField& velocity, const core::FaceField& gradient);
 
-  /// omega in cells, 1/s, for effects that ask for it.
+  /// omega in cells, 1/s, for effects that need it.
   void take_vorticity(const std::array<core::Field, 3>& vorticity);
 
-  /// Of a particle: lines in a box, else round shares.
+  /// Shares of a particle: lines in a box, else round shares.
   template <bool round>
   [[nodiscard]] auto shares(const Vector& x) const {
     if constexpr (round)
@@ -46,12 +46,12 @@ class Gather {
       return weights_(x);
   }
   [[nodiscard]] Lines lines(const Vector& x) const { return weights_(x); }
-  /// Null in a box, else what shares<true> needs.
+  /// Null in a box, else the weights for shares<true>.
   [[nodiscard]] const std::shared_ptr<const RoundWeights>& round() const { return round_; }
 
   template <class Shares>
   [[nodiscard]] Surroundings solids(const Shares& lines, std::int32_t species) const {
-    Four sum{};  // the fourth is that of the first species
+    Four sum{};  // the fourth is for the first species
     for_each_cell(weights_.dimensions(), lines, [&](std::size_t at, double w) {
       Four first;
       get_four(cells_.data() + at * width_, first);
@@ -63,7 +63,7 @@ class Gather {
                   [&](std::size_t at, double w) { own += w * cells_[at * width_ + 3 + std::size_t(species)]; });
     return {sum[0], sum[1], sum[2], own};
   }
-  /// sum phi_j/D_j^2, 1/m2, for drag laws that ask for it.
+  /// sum phi_j/D_j^2, 1/m2, for drag laws that need it.
   template <class Shares>
   [[nodiscard]] double per_square(const Shares& lines) const {
     double sum = 0;
@@ -87,7 +87,7 @@ class Gather {
     }
     return s;
   }
-  /// Only where it was taken.
+  /// Only if take_vorticity() was called.
   template <class Shares>
   [[nodiscard]] Vector vorticity(const Shares& lines) const {
     Vector omega{};
@@ -96,7 +96,7 @@ class Gather {
     });
     return omega;
   }
-  /// Of one field on faces.
+  /// Value of one field on faces.
   template <class Shares>
   [[nodiscard]] Vector vector(const Shares& lines, const core::FaceField& field) const {
     Vector v{};
@@ -110,11 +110,11 @@ class Gather {
  private:
   Weights weights_;
   std::vector<double> diameter_;
-  std::size_t width_;          ///< numbers in a cell
+  std::size_t width_;          ///< numbers per cell
   std::vector<double> cells_;  ///< [cell]: phi, sum phi_j/D_j, sum phi_j D_j, phi_j of each species
   std::array<std::vector<std::array<double, 2>>, 3> faces_;  ///< [axis][face]: U_f, grad p
-  std::vector<Vector> vorticity_;                            ///< [cell]; empty unless an effect asks for it
-  std::shared_ptr<const RoundWeights> round_;                ///< null: weights_ serve
+  std::vector<Vector> vorticity_;                            ///< [cell]; empty unless an effect needs it
+  std::shared_ptr<const RoundWeights> round_;                ///< null: weights_ are used
 };
 
 }  // namespace polybed::dem

@@ -1,4 +1,4 @@
-// What the fluid does to each particle, kept while particles change places and ranks.
+// Stores the fluid's loads on each particle while particles change places and ranks.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@ struct KeptLoad {
   FluidLoad load;
 };
 
-/// Of the owned particles, in their order.
+/// Loads of the owned particles, in their order.
 [[nodiscard]] inline std::vector<KeptLoad> keep(const Particles& particles, const std::vector<FluidLoad>& loads) {
   std::vector<KeptLoad> kept;
   kept.reserve(particles.owned);
@@ -23,7 +23,7 @@ struct KeptLoad {
   return kept;
 }
 
-/// Gives the owned particles theirs; nothing to those of which nothing is kept.
+/// Restores the loads of the owned particles; others without stored loads stay unchanged.
 inline void recall(const std::vector<KeptLoad>& kept, const Particles& particles, std::vector<FluidLoad>& loads) {
   std::unordered_map<std::int64_t, const FluidLoad*> found;
   found.reserve(kept.size());

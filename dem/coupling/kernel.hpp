@@ -1,4 +1,4 @@
-// The width over which particles are averaged for the fluid: that of the case, or what suits cells and particles.
+// The averaging width of particles for the fluid: from the case, or suited to cells and particles.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@ namespace polybed::dem {
 
 struct Kernel {
   double width = 0;    ///< full width at half height, m; 0: bilinear weights alone
-  std::string reason;  ///< as people read it
+  std::string reason;  ///< for people
 };
 
 /// \param smallest_cell, largest_diameter  m  \param particles  their number

@@ -1,4 +1,4 @@
-// What is measured of the fluid between particles.
+// Measures of the fluid between particles.
 #include <algorithm>
 
 #include "core/numerics/metric.hpp"
@@ -10,8 +10,8 @@ namespace polybed::dem {
 using core::Field;
 using core::Index;
 
-/// What the particles' halves of cells at the bottom, and at a top without an outlet, take from the fluid: no fluid
-/// moves on those faces that could show it in its pressure.
+/// Weight that the particles' halves of cells at the bottom, and at a top without an outlet, take from the fluid: no
+/// fluid moves on those faces, so its pressure cannot show it.
 void Coupling::weigh() {
   const core::Grid& grid = flow_.grid();
   const double dt = interval();

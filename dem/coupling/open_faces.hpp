@@ -16,8 +16,8 @@ namespace polybed::dem {
 
 /// A particle counts as far as it is inside; the part beyond a face is dropped. Its share falls from 1 to 0 while its
 /// centre moves from a radius before the face to a radius beyond it, so that the voidage has no jump. Beyond the top
-/// its weight on the faces there mirrors the weight below: then the flux through them, summed over the passage of a
-/// particle, is its volume, whatever its speed and the height of the cells. Elsewhere the flux of the mixture is given.
+/// its weight on the faces mirrors the weight below: the flux through them, summed over the passage of a particle, is
+/// then its volume, for any speed and height of the cells. Elsewhere the flux of the mixture is given.
 class OpenFaces {
  public:
   /// \param grid  of the whole column
@@ -44,21 +44,21 @@ class OpenFaces {
                  closures::sphere_volume(place.radius);
     return share;
   }
-  /// What is left of its shares on faces along y without those beyond the top.
+  /// The remaining part of its shares on faces along y, without those beyond the top.
   [[nodiscard]] double on_faces(const Place& place) const {
     const auto top = std::find_if(faces_.begin(), faces_.end(), [](const Opening& face) { return face.is_top(); });
     return top == faces_.end() ? 1 : std::clamp(1 - (place.x[1] - top->place) / spacing_, 0.0, 1.0);
   }
 
  private:
-  /// One that is pressed into what is left of a face is inside.
+  /// A particle pressed into the closed part of a face is inside.
   [[nodiscard]] bool cuts(const Opening& face, const Place& place) const {
     const double out = face.outward(place.x), at = face.outward(face.place);
     return out + place.radius > at && (out > at || box_.in_line(face, place.x));
   }
 
   Box box_;
-  std::vector<Opening> faces_;  ///< one opening of each face that has any
+  std::vector<Opening> faces_;  ///< one opening for each face with openings
   double spacing_;              ///< of a cell, m
   Arrivals arrivals_;
 };

@@ -1,7 +1,7 @@
-// What a particle counts for in the averages taken where it is. Drag laws are made of mean fractions of a whole
-// mixture; an average around a particle holds the particle itself, less the neighbours that it keeps away, and is too
-// high by that: in a bed of the two sizes of Matsuura and Akehata, under a kernel of four large diameters, by 0.6 % of
-// the column for the large ones, which is 3 % of their drag and 4 mm/s of the inversion velocity.
+// A particle's own contribution to the averages at its position. Drag laws use mean fractions of a whole mixture. An
+// average around a particle includes the particle itself, minus the neighbours that it displaces, and is too high by
+// that: in a bed with the two sizes of Matsuura and Akehata, under a kernel of four large diameters, by 0.6 % of the
+// column for the large ones, which is 3 % of their drag and 4 mm/s of the inversion velocity.
 #pragma once
 
 #include <array>
@@ -26,7 +26,7 @@ class OwnShare {
     return open_ != nullptr ? open_->inside(place, id) : 1;
   }
 
-  /// What each species counts for in every cell, from closures::SphereNeighbours. \param fraction  [species][cell]
+  /// Contribution of each species in every cell, from closures::SphereNeighbours. \param fraction  [species][cell]
   void take(const std::vector<core::Field>& fraction);
 
   /// The surroundings as a mean of the mixture, from those that the particle sees with itself among them.
@@ -39,7 +39,7 @@ class OwnShare {
   [[nodiscard]] double per_square_without(double seen, const Lines& lines, std::int32_t species,
                                           double inside = 1) const;
 
-  /// The kernel at its own place: what a volume of 1 at x adds to the average at x, 1/m3.
+  /// The kernel at its own place: contribution of a volume of 1 at x to the average at x, 1/m3.
   [[nodiscard]] double weight(const Lines& lines) const;
 
  private:
@@ -50,7 +50,7 @@ class OwnShare {
   std::array<std::vector<std::array<double, 2>>, 3> near_;  ///< [axis][cell]: the kernel in the cell, in the next one
   std::vector<double> diameter_;
   std::vector<Surroundings> counts_;  ///< [cell][species]: times 1 m3
-  std::vector<double> squares_;       ///< the same of sum phi_j/D_j^2; empty unless asked for
+  std::vector<double> squares_;       ///< the same for sum phi_j/D_j^2; empty unless needed
 };
 
 }  // namespace polybed::dem

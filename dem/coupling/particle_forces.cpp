@@ -15,7 +15,7 @@ namespace polybed::dem {
 
 namespace {
 
-/// Voidages that closures are asked about: that of the densest packing of equal spheres, and clear fluid.
+/// Range of voidages for closures: the densest packing of equal spheres, and clear fluid.
 constexpr double least_voidage = 0.26, most_voidage = 1;
 
 }  // namespace
@@ -45,7 +45,7 @@ void ParticleForces::find(const Particles& particles, const Gather& gather, std:
   }
 }
 
-/// The fields where the particles are. A rule leaves `own` to boxes; a wake in a round column is as wide as in a box.
+/// The fields at the particles. A rule restricts `own` to boxes; a wake in a round column is as wide as in a box.
 template <bool round>
 void ParticleForces::see(const Asked& asked, std::size_t begin, std::size_t count, FluidLoad* loads, Batch& batch) {
   const auto& [particles, gather, own, wake, diameter, needs_squares] = asked;
@@ -87,7 +87,7 @@ void ParticleForces::see(const Asked& asked, std::size_t begin, std::size_t coun
   }
 }
 
-/// Sums over what is around become averages of it; how many voidages were beyond what a bed has.
+/// Converts sums over the surroundings into averages; returns the number of voidages outside the range of a bed.
 std::uint64_t ParticleForces::average(std::size_t count, Batch& batch) {
   std::int64_t clamped = 0;
   POLYBED_INDEPENDENT
@@ -118,11 +118,11 @@ void ParticleForces::drag(const Particles& particles, std::size_t begin, std::si
   if (wake_) remove_own_wake(particles, begin, count, loads);
 }
 
-/// The fluid seen moves with the particle by F G, G = closures::own_wake: F = k (U_f + F G - U_p) for the U_f seen, so
-/// that drag over the slip seen is k/(1 - k G). k and G depend on the slip without the wake, 1/(1 - k G) of that seen.
+/// The fluid velocity seen moves with the particle by F G, G = closures::own_wake: F = k (U_f + F G - U_p) for the U_f
+/// seen; drag over the slip seen is then k/(1 - k G). k and G depend on the slip without the wake, 1/(1 - k G) of it.
 void ParticleForces::remove_own_wake(const Particles& particles, std::size_t begin, std::size_t count,
                                      std::vector<FluidLoad>& loads) {
-  constexpr int rounds = 4;  // k G is at most a half: each gains a digit
+  constexpr int rounds = 4;  // k G is at most a half: each round gains a digit
   const Batch::Row seen = batch_.slip;
   const auto rest = [&](std::size_t n) {
     return 1 - loads[begin + n].drag *

@@ -1,4 +1,4 @@
-// Forces of the averaged fluid on each particle, with the polydisperse composition that it sees, T(2.4)-(2.10).
+// Forces of the averaged fluid on each particle, with the local polydisperse composition, T(2.4)-(2.10).
 #pragma once
 
 #include <array>
@@ -16,21 +16,21 @@
 
 namespace polybed::dem {
 
-/// How often a law was asked, and how often outside its range.
+/// Number of evaluations of a law, and of those outside its range.
 struct LawUse {
   std::uint64_t evaluations = 0, guarded = 0;
-  std::uint64_t clamped_voidage = 0;  ///< voidages beyond what any bed has, held at the bounds for closures
+  std::uint64_t clamped_voidage = 0;  ///< voidages outside the range of a bed, clamped for closures
 };
 
-/// How far the averages that a particle is part of spread its drag over the fluid, and what it sees of it.
+/// Widths over which averages spread a particle's drag over the fluid and return it.
 struct OwnWake {
-  double smoothed = 0;  ///< variance along an axis of the kernel of diffusion, applied twice, m2
+  double smoothed = 0;  ///< variance along an axis of the diffusion kernel, applied twice, m2
   double cell = 0;      ///< root mean square of the spacings, m
 
-  /// Standard deviation along an axis of the Gaussian that spreads a force as scatter and gather do together, m. Of the
-  /// weights alone: sqrt(2/pi) a/q with a the cell and q = 3.11 - 3.72 t - 1.60 n + 2.24 t n, where n is 2 f (1 - f) of
-  /// the shares f, 1 - f along the force and t the mean of those across it. Fitted within 5 % to spheres that creep at
-  /// 12 places in cells of 3 to 6 diameters (docs/theory/particle-fluid.md).
+  /// Standard deviation along an axis of the Gaussian that approximates scatter and gather of a force together, m. For
+  /// the weights alone: sqrt(2/pi) a/q with a the cell and q = 3.11 - 3.72 t - 1.60 n + 2.24 t n, where n is 2 f (1 -
+  /// f) for the shares f, 1 - f along the force and t the mean over those across it. Fitted within 5 % to creeping
+  /// spheres at 12 places in cells of 3 to 6 diameters (docs/theory/particle-fluid.md).
   /// \param along  squares of the components of the force, in any unit
   [[nodiscard]] double spread(const Lines& lines, const std::array<double, 3>& along) const {
     const auto shares = [](const Line& line) { return 2 * line.w[0] * line.w[1]; };
@@ -51,16 +51,16 @@ class ParticleForces {
  public:
   ParticleForces(const core::Scene& scene, const Materials& materials, double fluid_density, double viscosity);
 
-  /// What each owned particle feels at its place and velocity: all of a FluidLoad but the impulse.
-  /// \param own  null: a particle is part of what it sees
+  /// Loads on each owned particle at its place and velocity: all of a FluidLoad except the impulse.
+  /// \param own  null: averages include the particle itself
   void find(const Particles& particles, const Gather& gather, std::vector<FluidLoad>& loads,
             const OwnShare* own = nullptr);
 
-  /// From here on drag follows from the velocity without what each particle gives it by its own drag,
-  /// closures::own_wake: for particles so few that no neighbour feels the same.
+  /// From now on drag uses the velocity without the particle's own contribution, closures::own_wake: for particles so
+  /// few that no neighbour sees the same.
   void see_past_own_wake(const OwnWake& wake) { wake_ = wake; }
 
-  /// Whether drag asks for sum phi_j/D_j^2 around a particle.
+  /// Whether drag needs sum phi_j/D_j^2 around a particle.
   [[nodiscard]] bool needs_squares() const { return needs_squares_; }
   [[nodiscard]] bool has_added_mass() const { return laws_.added_mass != nullptr; }
   [[nodiscard]] LawUse use() const;
@@ -89,7 +89,7 @@ class ParticleForces {
 
   LoadLaws laws_;
   std::vector<double> diameter_;  ///< of each species, m
-  std::vector<double> creeping_;  ///< 3 pi mu D of each species, over the divisor of a gas that slips, kg/s
+  std::vector<double> creeping_;  ///< 3 pi mu D for each species, over the divisor from gas slip, kg/s
   double largest_, fluid_density_, viscosity_;
   bool needs_squares_ = false;
   closures::GuardCount count_;

@@ -9,7 +9,7 @@ namespace polybed::dem {
 
 namespace {
 
-/// Farther from the wall, in cells, g = 1: there cells are whole, and so are those around them.
+/// Farther from the wall, in cells, g = 1: cells and their neighbours are whole there.
 constexpr int cells_to_fit = 3;
 
 /// Sample places along each horizontal axis of a cell for the fit of g. In a tapered column each layer is sampled at
@@ -17,7 +17,7 @@ constexpr int cells_to_fit = 3;
 constexpr std::array<int, 1> points{16};
 constexpr std::array<int, 3> points_of_tapered{4, 6, 8};
 
-/// V of the entries in whole cells, from the bottom; 0 where nothing of either cell is open.
+/// V of the entries in whole cells, from the bottom; 0 if both cells are closed.
 std::vector<double> volumes(const core::Grid& grid, int of, int layers) {
   const core::Metric& metric = *grid.metric;
   const auto theta = [&](int i, int j, int k) {
@@ -35,7 +35,7 @@ std::vector<double> volumes(const core::Grid& grid, int of, int layers) {
   return volume;
 }
 
-/// Of a column, m; the smaller at a step.
+/// Radius of a column, m; the smaller one at a step.
 double radius_of(const core::Grid& grid, double height) {
   const core::Taper& taper = grid.metric->taper;
   if (taper.empty()) return 0.5 * grid.cells[0] * grid.spacing[0];
@@ -62,13 +62,13 @@ EntryWeights::EntryWeights(const core::Grid& grid, int of)
   fit(grid, volume);
 }
 
-/// Of an entry from the axis of the column, m.
+/// Distance of an entry from the axis of the column, m.
 double EntryWeights::distance(int i, int k) const {
   return std::hypot((i + offset_[0]) / per_spacing_[0] - radius_, (k + offset_[2]) / per_spacing_[2] - radius_);
 }
 
-/// Which entry gets what stands on another: itself where it is open, the one above or below it where that is, else of
-/// the open ones in the nearest ring around it the one nearest to the axis, so that mirror images go to mirror images.
+/// The entry that takes the share on another: itself if it is open, else the one above or below if that is open, else
+/// in the nearest ring with open entries the one nearest to the axis, so that mirror images go to mirror images.
 std::size_t EntryWeights::taker(const std::vector<double>& volume, int i, int layer, int k) const {
   const auto of = [&](int x, int j, int z) { return entry(std::size_t(x), std::size_t(j), std::size_t(z)); };
   for (const int j : {layer, layer + 1, layer - 1})
@@ -78,7 +78,7 @@ std::size_t EntryWeights::taker(const std::vector<double>& volume, int i, int la
     double least = std::numeric_limits<double>::infinity();
     for (int z = std::max(k - ring, 0); z <= std::min(k + ring, count_[2] - 1); ++z)
       for (int x = std::max(i - ring, 0); x <= std::min(i + ring, count_[0] - 1); ++x) {
-        // Of two at one distance from the axis the nearer one.
+        // At equal distance from the axis the nearer one wins.
         const double away = distance(x, z) + 1e-6 * radius_ * std::hypot(x - i, z - k);
         if (!(volume[of(x, layer, z)] > 0) || away >= least) continue;
         least = away;
@@ -95,8 +95,8 @@ std::size_t EntryWeights::in_quarter(std::size_t n) const {
   return entry(std::min(i, row - 1 - i), n / layer, std::min(k, std::size_t(count_[2]) - 1 - k));
 }
 
-/// Calls body(around, share of a cell's volume) for places that lie evenly in a quarter of the column, as far as they
-/// touch entries whose weight is fitted.
+/// Calls body(around, share of a cell's volume) for evenly spaced places in a quarter of the column that touch entries
+/// with fitted weights.
 template <class Body>
 void EntryWeights::for_each_place(const core::Grid& grid, Body&& body) const {
   const double hx = grid.spacing[0], hz = grid.spacing[2];
@@ -117,8 +117,8 @@ void EntryWeights::for_each_place(const core::Grid& grid, Body&& body) const {
   for (int j = 0; j < grid.cells[1]; ++j) layer(j, points_of_tapered);
 }
 
-/// g of the entries of the quarter, and their mirror images'. Each round multiplies it by the volume of an entry over
-/// what evenly placed particles fill of it.
+/// Fits g of the quarter's entries and their mirror images. Each round multiplies it by the volume of an entry over the
+/// volume that evenly placed particles fill.
 void EntryWeights::fit(const core::Grid& grid, const std::vector<double>& volume) {
   const int rounds = alike_ ? 20 : 10;
   const double inner = alike_ ? radius_ - cells_to_fit / std::min(per_spacing_[0], per_spacing_[2]) : -1;

@@ -1,13 +1,13 @@
-// The shares in which a particle of a round column belongs to the cells and the faces around it.
+// The shares of a particle in a round column in the surrounding cells and faces.
 //
 //   share of entry e = w_e g_e / sum(w g)
 //
-// w are the shares of Weights, and those on closed entries count for open ones near them. g is fitted once: particles
-// spread evenly over the column fill the open volume V of every entry evenly. g = V alone would fill small cut cells by
-// half, and the cells next to them by a seventh too much. V of a face is the volume of its momentum. Faces of open
-// cells that the wall closes have theirs, and hold it at rest, as the faces on the walls of a box do.
+// w are the shares of Weights; those on closed entries count for open ones near them. g is fitted once: particles
+// spread evenly over the column fill the open volume V of every entry evenly. g = V alone would fill small cut cells
+// half, and the cells next to them a seventh too much. V of a face is the volume of its momentum. Faces of open cells
+// that the wall closes have their share, and keep it at rest, as faces on the walls of a box do.
 //
-// Where the diameter does not change all layers are alike, and have one g.
+// If the diameter is constant, all layers are alike and have one g.
 #pragma once
 
 #include <memory>
@@ -17,13 +17,13 @@
 
 namespace polybed::dem {
 
-/// Entries around a place, and its shares of them. Some may be the same.
+/// Entries around a place, with their shares. Some can be the same.
 struct EntryShares {
   std::array<core::Index, 8> at;
   std::array<double, 8> w;
 };
 
-/// Of cells, or of faces of one axis.
+/// Weights of cells, or of faces of one axis.
 class EntryWeights {
  public:
   /// \param grid  of the whole column  \param of  axis of the faces; -1: cells
@@ -47,12 +47,12 @@ class EntryWeights {
   struct Around {
     std::array<std::size_t, 8> entry;
     std::array<double, 8> w;
-    std::array<core::Index, 2> lift;  ///< of both layers, where all have one g
+    std::array<core::Index, 2> lift;  ///< of both layers, if all have one g
   };
-  /// What a share on an entry counts for: itself or an open one near it.
+  /// The target of an entry's share: itself or an open one near it.
   struct Entry {
     std::size_t taker;
-    core::Index at;  ///< of the taker in a field; where all layers are alike in the first of them
+    core::Index at;  ///< of the taker in a field; if all layers are alike, in the first
     double weight;   ///< g of the taker
   };
   [[nodiscard]] Around find(const Vector& x) const {
@@ -88,13 +88,13 @@ class EntryWeights {
 
   std::array<int, 3> count_{};
   std::array<double, 3> per_spacing_{}, offset_{};  ///< 1/m; spacings
-  bool alike_;                                      ///< all layers are
+  bool alike_;                                      ///< all layers are alike
   core::Index lift_;                                ///< from a layer to the next in a field
   double radius_;                                   ///< of the column where it is widest, m
   std::vector<Entry> entries_;
 };
 
-/// Of a particle, of each kind of entries.
+/// Shares of a particle for each kind of entry.
 struct RoundShares {
   EntryShares cell;
   std::array<EntryShares, 3> face;
@@ -118,7 +118,7 @@ class RoundWeights {
 /// Null for a box.
 [[nodiscard]] std::shared_ptr<const RoundWeights> round_weights(const core::Grid& grid);
 
-/// As for the Lines of a box: calls body(at, share).
+/// As with the Lines in a box: calls body(at, share).
 template <class Body>
 void for_each_cell(int /*dimensions*/, const RoundShares& shares, Body&& body) {
   for (std::size_t n = 0; n < 8; ++n) body(std::size_t(shares.cell.at[n]), shares.cell.w[n]);

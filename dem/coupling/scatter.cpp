@@ -27,7 +27,7 @@ Scatter::Scatter(const core::Grid& grid, const core::Grid& block, const Material
     lightest = std::min(lightest, s.density);
     heaviest = std::max(heaviest, s.density);
   }
-  // The greatest that each sum can be if all particles were in one place, and what speeds may exceed expectations by.
+  // Bounds each sum by all particles in one place, with this reserve for speeds above the expected ones.
   constexpr double reserve = 64;
   const double mass = all * heaviest;
   for (const double most :
@@ -46,7 +46,7 @@ void Scatter::collect(const Particles& particles, const std::vector<FluidLoad>& 
   });
 }
 
-/// Calls with the number of sums and whether the column is round, constants of the compiler.
+/// Calls act with the number of sums and whether the column is round, both compile-time constants.
 template <class Act>
 void Scatter::with_count(Act&& act) const {
   const auto counted = [&](const auto round) {
@@ -79,7 +79,7 @@ void Scatter::add_moving(Scatter& sums, const Particles& particles, const std::v
   }
 }
 
-/// All that it gives, in the share that is inside: the fluid beyond the face takes the rest.
+/// All contributions, times the share that is inside: the fluid beyond the face takes the rest.
 template <std::size_t count, bool round>
 void Scatter::add_cut(const Place& place, std::int64_t id, Given given) {
   const double share = open_->inside(place, id);
@@ -107,8 +107,8 @@ void Scatter::collect_held(const core::Ranks* ranks, const Particles& particles,
   });
 }
 
-/// No mass bounds what held particles take in a step: units that hold the greatest of each, times their number, which
-/// are the same on any number of ranks.
+/// The mass does not bound the impulse on held particles in a step: the units suit the greatest of each, times their
+/// number, and are the same on any number of ranks.
 void Scatter::fit_units(const core::Ranks* ranks, const std::vector<FluidLoad>& loads, double dt) {
   double most_drag = 0, most_impulse = 0;
   for (const FluidLoad& f : loads) {
@@ -126,12 +126,12 @@ void Scatter::fit_units(const core::Ranks* ranks, const std::vector<FluidLoad>& 
 template <std::size_t count, class Shares>
 void Scatter::add(const Shares& shares, const Given& given) {
   const double v = given.volume;
-  // Copies, as for all that the compiler knows a sum that is written may be a member.
+  // Copies, as the compiler must assume that a written sum could be a member.
   std::int64_t* const sums = sums_.data();
   const std::size_t width = width_;
   const int dimensions = grid_.dimensions;
   constexpr std::size_t many = fours(count);
-  Four units[many] = {};  // of those on a face; the last may be for none
+  Four units[many] = {};  // for the sums on a face; the last ones can be unused
   const auto set = [&](std::size_t q, double amount) { units[q / 4][q % 4] = amount * unit_[q].per_unit; };
   set(Sum::volume, v);
   for (std::size_t q = drag; q < count; ++q) set(q, given.same[q - drag]);
@@ -149,8 +149,8 @@ void Scatter::add(const Shares& shares, const Given& given) {
                 [&](std::size_t at, double w) { sums[at * width + cell] += std::int64_t(w * units[0][0]); });  // volume
 }
 
-/// Sums over all ranks. A column is mostly empty above its bed: only what lies between entries that any rank has filled
-/// is sent.
+/// Sums over all ranks. A column is mostly empty above its bed: sends only the range of entries that any rank has
+/// filled.
 void Scatter::add_up(const core::Ranks* ranks) {
   if (ranks == nullptr) return;
   const auto filled = [](std::int64_t sum) { return sum != 0; };
@@ -202,7 +202,7 @@ void Scatter::give_faces(std::span<const std::int64_t> sums, bool open_top, flui
         for (std::size_t q = 0; q < count_; ++q)
           field[q][c] = double(sums[c * width_ + a * of_axis_ + q]) * unit[q] * metric.per_volume_on(a, core::Index(c));
     });
-    // The faces of the outlet stand for half a cell.
+    // The faces of the outlet represent half a cell.
     if (axis == 1 && open_top && block_.ends(1, 1))
       core::for_each_row(block_, {0, block_.cells[1], 0}, {block_.cells[0], block_.cells[1] + 1, block_.cells[2]},
                          [&](core::Index begin, core::Index end) {

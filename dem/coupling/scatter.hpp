@@ -1,5 +1,5 @@
-// From particles to the fluid: their volumes in cells and what they answer on faces, T(2.9), as sums in whole units, so
-// that they depend neither on the order of the particles nor on how many ranks share them.
+// From particles to the fluid: their volumes in cells and their responses on faces, T(2.9), as sums in whole units,
+// which depend neither on the order of the particles nor on the number of ranks.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@ namespace polybed::dem {
 
 class Scatter {
  public:
-  /// \param grid  of the whole column  \param block  that this rank's fluid has, or the column
+  /// \param grid  of the whole column  \param block  of this rank's fluid, or the column
   /// \param volume  of all particles, m3  \param speed  greatest expected, m/s
   Scatter(const core::Grid& grid, const core::Grid& block, const Materials& materials, bool added_mass, double volume,
           double speed);
@@ -30,30 +30,30 @@ class Scatter {
 
   /// Sums over this rank's particles. \param dt  of the fluid's step, s
   void collect(const Particles& particles, const std::vector<FluidLoad>& loads, double dt);
-  /// The same of a fixed bed, whose particles take drag and do not move. Collective.
+  /// The same for a fixed bed, whose particles receive drag and do not move. Collective.
   void collect_held(const core::Ranks* ranks, const Particles& particles, const std::vector<FluidLoad>& loads,
                     double dt);
-  /// Collective: sums over all ranks, per open volume of a cell or of a face's momentum; on faces that a round wall
-  /// closes as without particles. \param open_top  the faces at the top move
+  /// Collective: sums over all ranks, per open volume of a cell or of a face's momentum; faces closed by a round wall
+  /// have no particles. \param open_top  the faces at the top move
   /// \param exchange  with the owners of the blocks; null: every rank has the whole column
   void give(const core::Ranks* ranks, const GridExchange* exchange, bool open_top, fluid::ParticlePhase& phase,
             std::vector<core::Field>& fraction);
 
  private:
-  /// What stands on a face, in this order.
+  /// Sums on a face, in this order.
   enum Sum { volume, flux, impulse, drag, follow, slide, yield, carry, carry_flux };
-  /// How many vectors of four hold so many.
+  /// Number of vectors of four for a count.
   static constexpr std::size_t fours(std::size_t count) { return (count + 3) / 4; }
 
   void fit_units(const core::Ranks* ranks, const std::vector<FluidLoad>& loads, double dt);
-  /// What one particle gives. `same` is alike on the faces of all axes: drag, follow, slide, yield, carry, carry_flux.
+  /// Contribution of one particle. `same` is for the faces of all axes: drag, follow, slide, yield, carry, carry_flux.
   struct Given {
     double volume;
     std::array<double, 6> same;
     Vector velocity, impulse;
     std::size_t species;
   };
-  /// Those of a particle: lines in a box, else round ones.
+  /// Shares of a particle: lines in a box, else round ones.
   template <bool round>
   [[nodiscard]] auto shares(const Vector& x) const {
     if constexpr (round)
@@ -76,11 +76,11 @@ class Scatter {
   Weights weights_;
   std::optional<OpenFaces> open_;  ///< absent: no particle passes a face
   std::vector<Species> species_;
-  std::size_t count_;                          ///< sums on a face: the first of them
-  std::size_t of_axis_, width_;                ///< their places on a face, and on all faces and in the cell of an entry
-  std::vector<FixedPoint> unit_;               ///< of each
-  std::vector<std::int64_t> sums_, shared_;    ///< [entry][axis, place; species]; of the column, and of a block
-  std::shared_ptr<const RoundWeights> round_;  ///< null: weights_ serve
+  std::size_t count_;                          ///< number of sums on a face, which come first
+  std::size_t of_axis_, width_;                ///< number of sums per axis, and over all axes and the cell of an entry
+  std::vector<FixedPoint> unit_;               ///< for each sum
+  std::vector<std::int64_t> sums_, shared_;    ///< [entry][axis, place; species]; for the column, and for a block
+  std::shared_ptr<const RoundWeights> round_;  ///< null: weights_ are used
 };
 
 }  // namespace polybed::dem

@@ -1,5 +1,5 @@
-// The shares in which a particle belongs to the cells and the faces around it, T(2.9): linear in the distance along
-// each direction of the grid. What is given to the fluid and what is taken from it have the same weights.
+// The shares of a particle in the surrounding cells and faces, T(2.9): linear in the distance along each direction of
+// the grid. Both directions of the coupling have the same weights.
 #pragma once
 
 #include <algorithm>
@@ -11,13 +11,13 @@
 
 namespace polybed::dem {
 
-/// Two neighbours along an axis: where they stand in a field, and their shares.
+/// Two neighbours along an axis: their indices in a field, and their shares.
 struct Line {
   std::array<core::Index, 2> at{0, 0};
   std::array<double, 2> w{1, 0};
 };
 
-/// Of a particle, along each axis.
+/// For a particle, along each axis.
 struct Lines {
   std::array<Line, 3> cell, face;
 };
@@ -33,8 +33,8 @@ class Weights {
     }
   }
 
-  /// Shares in cells beyond a wall return inward, those across joined sides go to the other side. The faces on walls
-  /// have their share, which is that of what they hold. Particles beyond an end count to its outermost row.
+  /// Shares in cells beyond a wall return inward; those across joined sides go to the other side. Faces on walls have
+  /// their share, which is the share of the wall. Particles beyond an end count to its outermost row.
   [[nodiscard]] Lines operator()(const Vector& x) const {
     Lines lines;
     for (std::size_t a = 0; a < std::size_t(grid_.dimensions); ++a) {
@@ -50,12 +50,12 @@ class Weights {
   [[nodiscard]] int dimensions() const { return grid_.dimensions; }
 
  private:
-  /// \param place  in spacings from entry 0  \param period  0: entries beyond the first and the last are those
+  /// \param place  in spacings from entry 0  \param period  0: entries beyond the first and the last are clamped
   [[nodiscard]] Line line(double place, std::size_t a, int period, int first, int last) const {
     const double below = std::floor(place), share = place - below;
     int low = int(below), high = low + 1;
     if (period > 0) {
-      // A particle strays by less than a period; one that has jumped, for which its step ends, is looked up somewhere.
+      // A particle strays by less than a period; one that has jumped, which ends its step, gets any valid place.
       low = std::clamp(low < 0 ? low + period : low >= period ? low - period : low, 0, period - 1);
       high = std::clamp(high < 0 ? high + period : high >= period ? high - period : high, 0, period - 1);
     } else {
@@ -71,7 +71,7 @@ class Weights {
   std::array<core::Index, 3> stride_{};
 };
 
-/// Calls body(at, share) for the entries that the product of three lines reaches. \param dimensions  2 or 3
+/// Calls body(at, share) for the entries in the product of three lines. \param dimensions  2 or 3
 template <class Body>
 void for_each_share(int dimensions, const Line& x, const Line& y, const Line& z, Body&& body) {
   const int layers = dimensions == 3 ? 2 : 1;

@@ -1,4 +1,4 @@
-// Heat motion of small spheres, Langevin 1908.
+// Brownian motion of small spheres, Langevin 1908.
 #include <cmath>
 #include <cstdint>
 
@@ -12,24 +12,24 @@ namespace polybed::dem {
 
 namespace {
 
-constexpr std::uint64_t own_sequence = 0x6272'6f77'6e69'616eULL;  ///< apart from what else is drawn from a case's seed
+constexpr std::uint64_t own_sequence = 0x6272'6f77'6e69'616eULL;  ///< distinct from other draws with a case's seed
 
-/// A random force on each particle, drawn anew in the middle of every step and held until that of the next: of mean 0
-/// and variance 2 k_B T k/dt along each axis, k the drag over the slip. Under the exact drag a sphere then diffuses
-/// with D = k_B T/k whatever the step. At the ends of steps, in the middle of a hold, its speed has the variance (k_B
-/// T/M)(2/x)(a (1 - a)/(1 + a) + (1 - sqrt(a))^2), x = k dt/M, a = exp(-x): that of equipartition less a share of x/2.
-/// What a particle is given is taken from the fluid, whose own fluctuations are left out. Draws belong to a particle
-/// and its count of steps: the same on any number of ranks.
+/// A random force on each particle, drawn in the middle of every step and constant until the next draw, with mean 0 and
+/// variance 2 k_B T k/dt along each axis, k the drag over the slip. Under exact drag a sphere then diffuses with D =
+/// k_B T/k for any step. At the ends of steps, in the middle of a constant force, its speed has the variance (k_B
+/// T/M)(2/x)(a (1 - a)/(1 + a) + (1 - sqrt(a))^2), x = k dt/M, a = exp(-x): equipartition minus a share of x/2. The
+/// fluid receives the opposite momentum; its own fluctuations are neglected. Draws depend on a particle and its count
+/// of steps: they are the same on any number of ranks.
 class Brownian final : public SideForce {
  public:
-  /// \param temperature  K  \param dt  of the particles, s  \param place  of the count of draws in a row
+  /// \param temperature  K  \param dt  of the particles, s  \param place  index of the count of draws in a row
   Brownian(double temperature, std::uint64_t seed, double dt, std::size_t place)
       : temperature_(temperature), seed_(seed), dt_(dt), place_(place) {}
   [[nodiscard]] std::size_t memory_size() const override { return 1; }
   void begin(const SideView& view, SideRows& rows) override {
     for (std::size_t i = 0; i < view.loads.size(); ++i) rows.of(i)[place_] = 0;
   }
-  /// No time has passed: the force that is found next is the one drawn before, with the drag of now.
+  /// No time passes: the next force is the last draw again, with the present drag.
   void end_interval(const SideView& view, SideRows& rows) override {
     for (std::size_t i = 0; i < view.loads.size(); ++i) rows.of(i)[place_] -= 1;
   }

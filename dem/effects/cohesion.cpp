@@ -48,13 +48,13 @@ void van_der_waals(ContactBatch& b, const Row& radius, double hamaker, double le
     b.normal[c] += closures::van_der_waals_force(hamaker, radius[c], least_gap, -b.overlap[c]);
 }
 
-/// Share of the greatest pull at which the van der Waals force is cut.
+/// Share of the greatest attraction at which the van der Waals force is cut off.
 constexpr double pull_at_reach = 1e-6;
 
-/// A constant pull 2 pi W R* while the bodies touch: the memory is that of a neck that breaks at once.
+/// A constant attraction 2 pi W R* during contact: the memory is like that of a neck that breaks at once.
 class DmtCohesion final : public CohesionLaw {
  public:
-  /// \param work_of_adhesion  W, J/m2   \param place  of its memory in a batch
+  /// \param work_of_adhesion  W, J/m2   \param place  index of its memory in a batch
   DmtCohesion(const Materials& materials, double work_of_adhesion, double step, int place)
       : reach_(step), place_(place) {
     for (const PairMaterial& m : materials.kinds()) pull_.push_back(closures::dmt_pull_off(work_of_adhesion, m.radius));
@@ -82,12 +82,12 @@ class DmtCohesion final : public CohesionLaw {
   int place_;
 };
 
-/// JKR's force in place of Hertz'. Surfaces jump together when they touch and part when the neck breaks, a gap delta_s
-/// later: the memory is whether they hold. The energy of that way is lost, and counted where they jump together.
-/// Dashpot, friction and rolling act while the bodies overlap, as with Hertz' force, not on the neck.
+/// JKR's force instead of Hertz'. Surfaces jump together at first contact and separate when the neck breaks, a gap
+/// delta_s later: the memory is whether they adhere. The energy of this hysteresis is lost, and counted when they jump
+/// together. Dashpot, friction and rolling act during overlap, as with Hertz' force, not on the neck.
 class JkrCohesion final : public CohesionLaw {
  public:
-  /// \param place  of its memory in a batch
+  /// \param place  index of its memory in a batch
   JkrCohesion(const Materials& materials, double work_of_adhesion, double step, int place)
       : step_(step), place_(place) {
     for (const PairMaterial& m : materials.kinds()) {
@@ -136,16 +136,16 @@ class JkrCohesion final : public CohesionLaw {
  private:
   struct Constants {
     closures::JkrScales scales;
-    double loss;         ///< of a jump into contact, J
-    double coefficient;  ///< K of Hertz' force, whose energy it replaces
+    double loss;         ///< in a jump into contact, J
+    double coefficient;  ///< K in Hertz' force, whose energy it replaces
   };
   std::vector<Constants> constants_;
   double step_;
   int place_;
 };
 
-/// A R*/(6 z^2), z the gap but at least z_0; cut where it is a millionth of the pull at z_0, at 1000 z_0, where a
-/// thousandth of the energy is left. A step that is to resolve the approach must move less than z_0.
+/// A R*/(6 z^2), z the gap but at least z_0; cut off at a millionth of the force at z_0, at 1000 z_0, where a
+/// thousandth of the energy is left. A step must move less than z_0 to resolve the approach.
 class VanDerWaalsCohesion final : public CohesionLaw {
  public:
   /// \param hamaker  A, J  \param least_gap  z_0, m  \param asperity_radius  R* of rough surfaces, m; empty: of the
@@ -168,7 +168,7 @@ class VanDerWaalsCohesion final : public CohesionLaw {
   void add_energy(const ContactBatch& batch, Row& stored, double) const override {
     for (int c = 0; c < batch.count; ++c) {
       const double radius = radius_[std::size_t(batch.kind[c])], gap = -batch.overlap[c];
-      // From the distance at which the force is cut.
+      // Relative to the distance at which the force is cut off.
       stored[c] += closures::van_der_waals_energy(hamaker_, radius, least_gap_, gap) -
                    closures::van_der_waals_energy(hamaker_, radius, least_gap_, reach_);
     }

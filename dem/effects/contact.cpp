@@ -1,4 +1,4 @@
-// Contact: springs and dashpots along the normal, and the friction beside them.
+// Contact: springs and dashpots along the normal, with friction.
 #include "relevance/effects/contact.hpp"
 
 #include <cmath>
@@ -37,7 +37,7 @@ void linear(ContactBatch& b, double stiffness, const ContactBatch::Row& dashpot,
 /// A linear spring and dashpot.
 class LinearContact final : public NormalLaw {
  public:
-  /// \param stiffness  N/m  \param tail  as of HertzContact
+  /// \param stiffness  N/m  \param tail  as in HertzContact
   LinearContact(const Materials& materials, double stiffness, core::Tail tail)
       : stiffness_(stiffness), least_force_(tail == core::Tail::clip ? 0 : -std::numeric_limits<double>::infinity()) {
     for (const PairMaterial& m : materials.kinds()) {
@@ -71,7 +71,7 @@ class LinearContact final : public NormalLaw {
     double mass, dashpot, damping;  ///< m*, c, beta
   };
   std::vector<Constants> constants_;
-  double stiffness_, least_force_;  ///< N/m; N: 0, or none
+  double stiffness_, least_force_;  ///< N/m; N: 0, or no limit
 };
 
 }  // namespace
@@ -84,7 +84,7 @@ bool contact_has(const PairMaking& m, const relevance::Trait& trait) {
   return relevance::effects::contact.law_has(m.law, trait);
 }
 
-constexpr double tangential_ratio = 2.0 / 7;  ///< k_t/k_n of linear springs: both of one period for a solid sphere
+constexpr double tangential_ratio = 2.0 / 7;  ///< k_t/k_n for linear springs: equal periods for a solid sphere
 
 std::unique_ptr<TangentialLaw> make_tangential(const PairMaking& m, int place) {
   const core::Dem& dem = m.scene.dem;

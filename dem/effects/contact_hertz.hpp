@@ -1,4 +1,4 @@
-// Hertz's normal force with a dashpot that gives the restitution asked for.
+// Hertz's normal force with a dashpot for the required restitution.
 #pragma once
 
 #include <vector>
@@ -9,7 +9,7 @@ namespace polybed::dem {
 
 class HertzContact final : public NormalLaw {
  public:
-  /// \param tail  clip: no force pulls the particles together; keep: the dashpot may
+  /// \param tail  clip: the force never attracts the particles; keep: the dashpot can
   HertzContact(const Materials& materials, core::Tail tail);
   void act(ContactBatch& batch) const override;
   [[nodiscard]] double energy(int kind, double overlap) const override;
@@ -23,11 +23,11 @@ class HertzContact final : public NormalLaw {
   struct Constants {
     double mass, radius, modulus;  ///< m*, R*, E*
     double dashpot;                ///< c_n/sqrt(a)
-    double coefficient;            ///< K of F = K overlap^1.5, N/m^1.5
+    double coefficient;            ///< K in F = K overlap^1.5, N/m^1.5
     double beta;
   };
   std::vector<Constants> constants_;
-  double least_force_;  ///< N: 0, or none
+  double least_force_;  ///< N: 0, or no limit
 };
 
 }  // namespace polybed::dem

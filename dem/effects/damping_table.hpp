@@ -19,7 +19,7 @@ class DampingTable {
     for (std::size_t n = 0; n < beta_.size(); ++n)
       beta_[n] = closures::damping_ratio_clipped(std::exp(-most * double(n) / intervals));
   }
-  /// \param log  L, 0 or above; infinite: nothing rebounds, or as little as the law can
+  /// \param log  L, 0 or above; infinite: no rebound, or the least that the law allows
   [[nodiscard]] double operator()(double log) const {
     if (!clipped_) return std::isinf(log) ? 1 : log / std::sqrt(std::numbers::pi * std::numbers::pi + log * log);
     if (log >= most) return beta_.back();

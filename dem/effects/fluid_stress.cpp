@@ -1,4 +1,4 @@
-// The averaged fluid has it: fluid/flow.hpp.
+// The averaged fluid includes it: fluid/flow.hpp.
 #include "relevance/effects/fluid_stress.hpp"
 
 #include "dem/effects/maker.hpp"

@@ -1,4 +1,4 @@
-// Tangential forces that keep a displacement (hdd, linear) or a force (mindlin) between steps, under Coulomb's limit.
+// Tangential forces that store a displacement (hdd, linear) or a force (mindlin) between steps, with Coulomb's limit.
 #pragma once
 
 #include <vector>
@@ -7,11 +7,11 @@
 
 namespace polybed::dem {
 
-/// F_t = -k_t xi - c_t v_t with the displacement xi as memory, T(2.14) and Di Renzo and Di Maio (2005).
-/// hdd: k_t = (2/3) 8 G* a; linear: a constant. Beyond mu F_n the force is cut and xi is what the spring then holds.
+/// F_t = -k_t xi - c_t v_t with the displacement xi as memory, T(2.14) and Di Renzo and Di Maio (2005). hdd: k_t =
+/// (2/3) 8 G* a; linear: a constant. Above mu F_n the force is limited and xi is adjusted to it.
 class SpringFriction final : public TangentialLaw {
  public:
-  /// hdd. \param place  of its memory in a batch
+  /// hdd. \param place  index of its memory in a batch
   SpringFriction(const Materials& materials, int place);
   /// Linear. \param normal_stiffness  k_n, N/m  \param ratio  k_t/k_n
   SpringFriction(const Materials& materials, double normal_stiffness, double ratio, int place);
@@ -30,8 +30,8 @@ class SpringFriction final : public TangentialLaw {
   int place_;
 };
 
-/// F_t -= 8 G* a v_t dt with F_t as memory, cut in proportion to a when the overlap lessens, or the law would make
-/// energy; and a dashpot beside it. The first step of a contact has the mean of a over it, (2/3) a.
+/// F_t -= 8 G* a v_t dt with F_t as memory, reduced in proportion to a when the overlap decreases, as it would
+/// otherwise generate energy; plus a dashpot. The first step of a contact uses the mean of a over it, (2/3) a.
 class MindlinFriction final : public TangentialLaw {
  public:
   MindlinFriction(const Materials& materials, int place);

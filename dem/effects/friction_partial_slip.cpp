@@ -13,17 +13,17 @@ namespace {
 using closures::MindlinDeresiewicz;
 using closures::Vec3;
 
-/// What a contact keeps, seen from the side to which it loads: the state's side is always 1.
+/// Stored data of a contact, relative to its loading side: the state's side is always 1.
 struct Slip {
   Vec3 direction;
   MindlinDeresiewicz state;
-  double normal;  ///< F_n of the last step
+  double normal;  ///< F_n in the last step
   bool fresh;     ///< the first step of the contact
 };
 
 Slip recalled(const ContactBatch& b, int place, int c) {
   const ContactBatch::Row* m = b.memory + place;
-  // Branches are kept one higher: zero is a contact that has none yet.
+  // Branches are stored plus one: zero means a new contact.
   const bool fresh = m[6][c] == 0;
   return {closures::transported(at(m, c), at(b.distance, c)),
           {m[3][c], m[4][c], m[5][c], fresh ? 0 : m[6][c] - 1, 1},
@@ -42,7 +42,7 @@ void keep(ContactBatch& b, int place, int c, const Slip& slip) {
   m[7][c] = slip.normal;
 }
 
-/// Turns the force by what a displacement across it adds, within the limit.
+/// Rotates the force by the effect of a transverse displacement, within the limit.
 void turn(Slip& slip, const Vec3& across, double limit) {
   const Vec3 force = slip.state.force * slip.direction + across;
   const double size = std::sqrt(closures::dot(force, force)), sign = slip.state.force < 0 ? -1 : 1;
@@ -51,17 +51,17 @@ void turn(Slip& slip, const Vec3& across, double limit) {
   slip.state.force = sign * (size < limit ? size : limit);
 }
 
-/// One step of a displacement. \param stiffness  8 G* a, or the first step's share of it
+/// Applies one step of a displacement. \param stiffness  8 G* a, or the first step's share of it
 void move(Slip& slip, const Vec3& displacement, double stiffness, double friction, double normal) {
   const double distance = std::sqrt(closures::dot(displacement, displacement));
-  // Without force nothing has a direction yet, and the contact loads the way it moves.
+  // Without force there is no direction yet, and the contact loads along its motion.
   if (slip.state.branch == 0 && slip.state.force <= 0 && distance > 0) slip.direction = (1 / distance) * displacement;
   const double along = closures::dot(displacement, slip.direction);
   const Vec3 across = displacement - along * slip.direction;
   slip.state = closures::mindlin_deresiewicz(slip.state, {stiffness, along, friction, normal, normal - slip.normal});
   slip.normal = normal;
   const double limit = friction * normal > 0 ? friction * normal : 0;
-  // Round-off of the split is no part across.
+  // Round-off of the split does not count as a transverse part.
   if (closures::dot(across, across) > 1e-28 * distance * distance) turn(slip, stiffness * across, limit);
 }
 

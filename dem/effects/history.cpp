@@ -1,4 +1,4 @@
-// History force of spheres, closures/history_basset.hpp: Basset's kernel, creeping flow.
+// History force on spheres, closures/history_basset.hpp: Basset's kernel, creeping flow.
 #include <vector>
 
 #include "closures/history_basset.hpp"
@@ -13,19 +13,19 @@ namespace {
 
 using closures::Vec3;
 
-/// Stepped once in a step of the fluid: g is the change of slip over it, so that a collision enters by its impulse
-/// however short it is. For a g that is constant in each step the weights give the mean of the force over a step
-/// exactly, 4/3 sqrt(h) [(n+1)^1.5 - 2 n^1.5 + (n-1)^1.5]: momentum is right, and the start from rest is a past of
-/// zeros. The newest g holds the particle's own acceleration: its coefficient is an inertia, beside added mass and with
-/// the same acceleration of the fluid, DU_f/Dt; older terms have the slip's where the particle goes. Slip that is there
-/// at the start of a run counts as old: its vorticity has spread.
+/// Evaluated once per fluid step: g is the change of slip over it, so that a collision enters by its impulse however
+/// short it is. For constant g in each step the weights give the mean of the force over a step exactly, 4/3 sqrt(h)
+/// [(n+1)^1.5 - 2 n^1.5 + (n-1)^1.5]: momentum is exact, and a start from rest is a past of zeros. The newest g
+/// contains the particle's own acceleration: its coefficient is an inertia, added to the added mass and with the same
+/// acceleration of the fluid, DU_f/Dt; older terms use the slip along the particle's path. Initial slip counts as old:
+/// its vorticity has spread.
 ///
-/// Window of 4 steps: the exponentials err by 0.126 % wherever the window ends, and up to 1e5 windows; its length only
-/// decides how long a run remembers its start, 4e5 steps of the fluid.
+/// Window of 4 steps: the error of the exponentials is 0.126 % for any window, up to 1e5 windows; its length only
+/// limits how long a run remembers its start, 4e5 steps of the fluid.
 class History final : public SideForce {
  public:
   /// \param density, viscosity  of the fluid, kg/m3, Pa s  \param interval  step of the fluid, s
-  /// \param place  of its memory in a row  \param beside  other inertia is in the loads: added mass
+  /// \param place  index of its memory in a row  \param beside  the loads contain other inertia: added mass
   History(const Materials& materials, double density, double viscosity, double interval, std::size_t place, bool beside)
       : weights_(closures::basset_weights<window>(closures::basset_tail_fitted, interval)),
         place_(place),
@@ -44,7 +44,7 @@ class History final : public SideForce {
     closures::BassetHistory<window> history;
     for (std::size_t i = 0; i < view.loads.size(); ++i) {
       double* row = rows.of(i) + place_;
-      history.known = window;  // of zeros, at the start
+      history.known = window;  // zeros, at the start
       for (std::size_t n = 0; n < window; ++n) history.past[n] = to_vec3(row + past + 3 * n);
       for (std::size_t n = 0; n < closures::BassetTail::terms; ++n) history.tail[n] = to_vec3(row + tail + 3 * n);
       const Vec3 now = slip_of(view, i), change = now - to_vec3(row + slip);
@@ -66,14 +66,14 @@ class History final : public SideForce {
 
  private:
   static constexpr std::size_t window = 4;
-  /// In a row: the slip when the step of the fluid began, the sum of the past, g of the window, sums of the tail.
+  /// In a row: the slip at the start of the fluid step, the sum of the past, g in the window, sums of the tail.
   static constexpr std::size_t slip = 0, sum = 3, past = 6, tail = past + 3 * window,
                                memory = tail + 3 * closures::BassetTail::terms;
 
   closures::BassetWeights<window> weights_;
-  std::vector<double> prefactor_;  ///< B of each species, kg/s^(1/2)
+  std::vector<double> prefactor_;  ///< B for each species, kg/s^(1/2)
   std::size_t place_;
-  double interval_, others_;  ///< s; share of the inertia of others: 1, or 0 where there is none
+  double interval_, others_;  ///< s; share of other inertia: 1, or 0 without any
 };
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Lift of spheres in a sheared fluid, closures/lift_saffman_mei.hpp.
+// Lift on spheres in a sheared fluid, closures/lift_saffman_mei.hpp.
 #include <vector>
 
 #include "closures/lift_saffman_mei.hpp"
@@ -11,9 +11,9 @@ namespace polybed::dem {
 
 namespace {
 
-/// Saffman's lift with the share of Mei, from the slip U_f - U_p between the particles and the vorticity of the
-/// averaged fluid: that of one sphere, at any voidage. Explicit: it turns the slip at a rate r of that at which Stokes'
-/// drag brings it to rest, r = 0.17 sqrt(rho_f d^2 |omega|/mu), and no step of an exact drag is too long for r below 1.
+/// Saffman's lift with Mei's share, from the slip U_f - U_p between the particles and the vorticity of the averaged
+/// fluid: as for one sphere, at any voidage. Explicit: it turns the slip at r times the rate at which Stokes' drag
+/// stops it, r = 0.17 sqrt(rho_f d^2 |omega|/mu); with exact drag any step is stable for r below 1.
 class Lift final : public SideForce {
  public:
   /// \param density, viscosity  of the fluid, kg/m3, Pa s

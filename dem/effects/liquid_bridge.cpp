@@ -1,4 +1,4 @@
-// Capillary force of liquid bridges between wet particles in a gas, closures/liquid_bridge_willett.hpp.
+// Capillary force by liquid bridges between wet particles in a gas, closures/liquid_bridge_willett.hpp.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -20,7 +20,7 @@ namespace {
 
 using Row = ContactBatch::Row;
 
-/// Of a pair of materials.
+/// For a pair of materials.
 struct BridgeConstants {
   double pull = 0;     ///< greatest force, N
   double stretch = 0;  ///< sqrt(R/V), 1/m
@@ -43,12 +43,12 @@ void pull_together(ContactBatch& b, int place, const BridgeRows& bridge, double 
   }
 }
 
-/// A bridge forms where two surfaces touch and lives until their gap exceeds the rupture distance: the memory is
-/// whether it is there. Every bridge of a pair of materials has the same volume; the liquid of a bridge that ruptures
-/// returns to where it came from. The energy that a bridge releases where it forms is lost, and counted there.
+/// A bridge forms at first contact and exists until the gap exceeds the rupture distance: the memory is whether it
+/// exists. Every bridge of a pair of materials has the same volume; a ruptured bridge's liquid returns to its surfaces.
+/// The energy that a forming bridge releases is lost, and counted then.
 class WillettBridge final : public CohesionLaw {
  public:
-  /// \param place  of its memory in a batch
+  /// \param place  index of its memory in a batch
   WillettBridge(const Materials& materials, const core::Material& liquid, double step, int place)
       : step_(step), place_(place), constants_(materials.kinds().size()) {
     const double angle = liquid.contact_angle * std::numbers::pi / 180;

@@ -12,7 +12,7 @@ extern const Maker drag, partition, shape, fluid_stress, gas_slip, added_mass, l
 
 const std::vector<const Maker*>& effects() {
   using namespace makers;
-  // A law around the normal force comes before the normal force.
+  // A law that wraps the normal force comes before the normal force.
   static const std::vector<const Maker*> all{
       &drag,    &partition, &shape,       &fluid_stress, &gas_slip, &added_mass, &lift,          &magnus,
       &history, &brownian,  &lubrication, &contact,      &rolling,  &cohesion,   &liquid_bridge,

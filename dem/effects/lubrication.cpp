@@ -21,14 +21,14 @@ namespace {
 
 using Row = ContactBatch::Row;
 
-/// Gap up to which a film acts, over R*.
+/// Range of a film over R*.
 constexpr double reach_over_radius = 0.1;
-/// What stands for the films of a particle together, see Film.
+/// Represents all films of a particle, see Film.
 constexpr double films = 6;
 
 struct Squeezed {
   double viscosity, roughness;
-  double resolved;  ///< gap from which on the fluid resolves films, m; 0: it does not
+  double resolved;  ///< gap above which the fluid resolves films, m; 0: it does not
 };
 
 void squeeze(const ContactBatch& b, const Row& radius, const Row& per_mass, const Squeezed& film, Row& force) {
@@ -44,14 +44,14 @@ void squeeze(const ContactBatch& b, const Row& radius, const Row& per_mass, cons
   }
 }
 
-/// -c v_n with c = 6 pi mu R*^2/h from a gap of 0.1 R* until the surfaces touch, h at least the roughness. It takes
-/// energy both on approach and on the way apart; friction and rolling do not feel it.
+/// -c v_n with c = 6 pi mu R*^2/h from a gap of 0.1 R* until the surfaces touch, h at least the roughness. It
+/// dissipates energy on approach and on separation; friction and rolling ignore it.
 ///
-/// Implicit in v_n: c/(1 + 6 c dt/m*). The 6 is for particles with many films: with it the greatest rate of a close
-/// packing, 8 c/m with films along all its bonds, is at most (2/3)/dt however thin they are, where 2/dt is stable and
-/// 1/dt with the synchronised integrator. It is as if h were greater by 36 pi mu R*^2 dt/m*: to resolve thinner films,
-/// steps must be that much shorter. Next to a fluid that resolves wider gaps it is unresolved_film_resistance() of
-/// them.
+/// Implicit in v_n: c/(1 + 6 c dt/m*). The 6 is for particles with many films: the greatest rate in a close packing, 8
+/// c/m with films along all its bonds, is then at most (2/3)/dt for any thickness; the stability limit is 2/dt, or 1/dt
+/// with the synchronised integrator. It is equivalent to a greater h, by 36 pi mu R*^2 dt/m*: thinner films need
+/// correspondingly shorter steps to be resolved. With a fluid that resolves wider gaps it is
+/// unresolved_film_resistance().
 class Film final : public FilmLaw {
  public:
   /// Pa s and m
@@ -97,16 +97,16 @@ void damp(ContactBatch& b, int place, const Row& dry, double least_force) {
   }
 }
 
-/// A lower restitution, e exp(-35/St*): a law of the normal force around another. The speed at which the surfaces first
-/// touch decides on the damping of a whole contact, which is kept in its memory. A contact that begins without approach
-/// is damped most. Friction keeps the dashpot of dry contacts. Below e = 0.05 a clipped tail rebounds with 0.05.
+/// A lower restitution, e exp(-35/St*): a law that wraps another normal force. The speed at first contact sets the
+/// damping of the whole contact, which is stored in its memory. A contact that begins without approach has the greatest
+/// damping. Friction keeps the dashpot of dry contacts. Below e = 0.05 a clipped tail rebounds with 0.05.
 class WetContact final : public NormalLaw {
  public:
   struct Fluid {
     double density, viscosity;  ///< kg/m3, Pa s
   };
-  /// \param whole  the law of dry contacts with a damping ratio of 1 and its tail kept  \param tail  as of HertzContact
-  /// \param place  of its memory in a batch
+  /// \param whole  the law of dry contacts with a damping ratio of 1 and its tail kept  \param tail  as in HertzContact
+  /// \param place  index of its memory in a batch
   WetContact(std::unique_ptr<NormalLaw> whole, const Materials& materials, const Fluid& fluid, core::Tail tail,
              int place)
       : whole_(std::move(whole)),
@@ -146,28 +146,28 @@ class WetContact final : public NormalLaw {
   [[nodiscard]] double stiffness_at(int kind, double overlap) const override {
     return whole_->stiffness_at(kind, overlap);
   }
-  /// The greatest of any contact: steps have to bear it.
+  /// The greatest in any contact, as a limit for steps.
   [[nodiscard]] double damping_ratio(int kind) const override {
     return whole_->damping_ratio(kind) * table_.greatest();
   }
 
  private:
   struct Constants {
-    double log;     ///< -ln e of dry contacts
+    double log;     ///< -ln e, dry
     double stokes;  ///< St* over the speed, s/m
-    double dry;     ///< beta of dry contacts
+    double dry;     ///< beta, dry
   };
   [[nodiscard]] double damping_at_touch(int kind, double speed) const {
     const Constants& k = constants_[std::size_t(kind)];
     const double wet = closures::wet_restitution(1, k.stokes * -speed);  // 0 without approach
-    // Zero is what stands for a contact that has not begun.
+    // Zero represents a contact that has not begun.
     return std::max(table_(wet > 0 ? k.log - std::log(wet) : std::numeric_limits<double>::infinity()), tiny);
   }
 
   std::unique_ptr<NormalLaw> whole_;
   DampingTable table_;
   std::vector<Constants> constants_;
-  double least_force_;  ///< N: 0, or none
+  double least_force_;  ///< N: 0, or no limit
   int place_;
 };
 
@@ -184,7 +184,7 @@ void make_film(const PairMaking& m) {
 
 void make_wet_restitution(const PairMaking& m) {
   const relevance::FluidConstants fluid = relevance::fluid_constants(m.scene.fluid);
-  // Its memory is the first in a contact's. The law within has a damping ratio of 1, and its tail kept.
+  // Its memory comes first in a contact's. The wrapped law has a damping ratio of 1, and its tail kept.
   m.around_normal = [&materials = m.materials, fluid, tail = m.scene.dem.tail](const MakeNormal& make) {
     return std::make_unique<WetContact>(make(materials.with_restitution(0), core::Tail::keep), materials,
                                         WetContact::Fluid{fluid.density, fluid.viscosity}, tail, 0);

@@ -1,4 +1,4 @@
-// Spin of spheres in a fluid, closures/magnus_rubinow_keller.hpp: the side force, and the torque that ends the spin.
+// Spin of spheres in a fluid, closures/magnus_rubinow_keller.hpp: the side force, and the torque that damps the spin.
 #include <cmath>
 #include <vector>
 
@@ -14,9 +14,9 @@ namespace {
 
 using closures::Vec3;
 
-/// The force is explicit; it turns the slip at the rate (3/4) rho_f |Omega - omega/2|/rho_p and less. The torque is
-/// taken exactly in a frozen fluid, Omega - omega/2 falling as exp(-60 mu t/(rho_p d^2)): no step is too long for it.
-/// The averaged fluid has no spin of its own: the torque's reaction stays with it as heat.
+/// The force is explicit; it turns the slip at a rate of at most (3/4) rho_f |Omega - omega/2|/rho_p. The torque is
+/// integrated exactly in a frozen fluid, Omega - omega/2 falling as exp(-60 mu t/(rho_p d^2)): any step is stable. The
+/// averaged fluid has no spin of its own: the torque's reaction becomes heat in it.
 class Magnus final : public SideForce {
  public:
   /// \param density, viscosity  of the fluid, kg/m3, Pa s  \param dt  step of the particles, s
@@ -49,7 +49,7 @@ class Magnus final : public SideForce {
  private:
   struct Constants {
     double diameter;  ///< m
-    double turned;    ///< 1 - exp(-60 mu dt/(rho_p d^2)): share of the spin's way to the fluid's in a step
+    double turned;    ///< 1 - exp(-60 mu dt/(rho_p d^2)): relaxation of the spin to the fluid's in a step
   };
   std::vector<Constants> constants_;  ///< of each species
   double density_, viscosity_;

@@ -1,4 +1,4 @@
-// Who makes the effects of the particle model, and the list of them. What a scene does not call for is not made.
+// Makers of the effects in the particle model, and their list. Effects that a scene does not need are not created.
 #pragma once
 
 #include <functional>
@@ -21,18 +21,17 @@ class NormalLaw;
 class SideForce;
 struct PairLaws;
 
-/// What makes a law of the normal force, of these materials and with this tail ("clip" or "keep").
+/// Creates a law of the normal force for these materials and this tail ("clip" or "keep").
 using MakeNormal = std::function<std::unique_ptr<NormalLaw>(const Materials&, core::Tail)>;
 
-/// Slot Pair: fills its place in `laws`. Each law is given its place in the memory of a contact, behind the laws
-/// before.
+/// Slot Pair: fills its place in `laws`. The laws have consecutive places in a contact's memory.
 struct PairMaking {
   const core::Scene& scene;
   const Materials& materials;
   const std::string& law;
   PairLaws& laws;
-  std::function<std::unique_ptr<NormalLaw>(const MakeNormal&)>& around_normal;  ///< empty: the normal force as it is
-  double resolved_gap;                                                          ///< as of make_pair_laws()
+  std::function<std::unique_ptr<NormalLaw>(const MakeNormal&)>& around_normal;  ///< empty: the plain normal force
+  double resolved_gap;                                                          ///< as in make_pair_laws()
 };
 using MakePair = void (*)(const PairMaking&);
 
@@ -45,36 +44,36 @@ struct ForceMaking {
   const Materials& materials;
   double density, viscosity;  ///< of the fluid, kg/m3, Pa s
   double dt, interval;        ///< step of the particles and of the fluid, s
-  std::size_t place;          ///< of its memory in a particle's row
+  std::size_t place;          ///< index of its memory in a particle's row
   bool other_inertia;         ///< the slot Inertia has a law
 };
 using MakeForce = std::unique_ptr<SideForce> (*)(const ForceMaking&);
 
-/// Slots Exchange and Inertia: laws that the one loop over particles in a fluid is made of.
+/// Slots Exchange and Inertia: laws in the one loop over particles in a fluid.
 struct LoadLaws {
   std::optional<closures::DragLaw> drag;
   double (*added_mass)(double solids_fraction) = nullptr;  ///< its coefficient C_m
 };
 using MakeLoad = void (*)(const core::Scene& scene, const std::string& law, LoadLaws& laws);
 
-/// An effect of this model. Without a maker it acts within another's.
+/// An effect of this model. Without a maker another effect includes it.
 struct Maker {
   const relevance::Effect* effect;
   std::string slot;
   std::variant<std::monostate, MakePair, MakeForce, MakeLoad> make = {};
-  std::vector<core::Rule> rules = {};  ///< what it needs of [dem], beside the rules of the effect
+  std::vector<core::Rule> rules = {};  ///< requirements on [dem], besides the effect's rules
 };
 
-/// All of them, in the order in which they are made and listed.
+/// All makers, in the order of creation and of listings.
 [[nodiscard]] const std::vector<const Maker*>& effects();
 
-/// What [effects] may name, and what the effects of a list require.
+/// The valid entries of [effects], and the requirements of listed effects.
 [[nodiscard]] std::vector<core::Role> roles();
-/// Of the latter those that are about keys of [dem].
+/// The rules among them for keys of [dem].
 [[nodiscard]] std::vector<core::Rule> rules_of_keys(const std::vector<const Maker*>& list = effects());
 [[nodiscard]] std::vector<core::Rule> rules(const std::vector<const Maker*>& list = effects());
 
-/// Calls body(its function, law) for those of a list that a scene calls for and that fill the slot of this type.
+/// Calls body(its function, law) for the effects in a list that a scene needs and that fill the slot of this type.
 template <class Make, class Body>
 void for_each_called(const std::vector<const Maker*>& list, const core::Scene& scene, Body&& body) {
   for (const Maker* one : list) {

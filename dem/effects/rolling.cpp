@@ -1,5 +1,5 @@
-// Moments that resist rolling, rolling_friction.hpp, with the part of w_i - w_j that lies in the plane of contact:
-// twisting about n is not rolling and is free.
+// Moments that resist rolling, rolling_friction.hpp, from the part of w_i - w_j in the plane of contact: twisting about
+// n is free.
 #include <vector>
 
 #include "closures/contact_tangential.hpp"
@@ -53,7 +53,7 @@ void roll_spring(ContactBatch& b, int place, const Row& arm, const Row& inertia,
   }
 }
 
-/// A constant moment mu_r R* F_n against the rolling. No memory; at rest it flickers with the sign of the spin.
+/// A constant moment mu_r R* F_n against the rolling. No memory; at rest it oscillates with the sign of the spin.
 class ConstantRolling final : public RollingLaw {
  public:
   ConstantRolling(const Materials& materials, double rolling_friction) {
@@ -72,11 +72,11 @@ class ConstantRolling final : public RollingLaw {
   std::vector<double> arm_;  ///< mu_r R*, m
 };
 
-/// A spring of rotation k_r = 2.25 k_n mu_r^2 R*^2 with a dashpot, capped at mu_r R* F_n; k_n is the elastic force over
-/// the overlap. The memory is the spring's moment, which turns with the pair.
+/// A rotational spring k_r = 2.25 k_n mu_r^2 R*^2 with a dashpot, limited to mu_r R* F_n; k_n is the elastic force over
+/// the overlap. The memory is the spring's moment, which rotates with the pair.
 class SpringRolling final : public RollingLaw {
  public:
-  /// \param damping  share of the critical damping  \param place  of its memory in a batch
+  /// \param damping  share of the critical damping  \param place  index of its memory in a batch
   SpringRolling(const Materials& materials, double rolling_friction, double damping, int place)
       : damping_(damping), place_(place) {
     for (const PairMaterial& m : materials.kinds())

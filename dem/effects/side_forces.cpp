@@ -9,7 +9,7 @@ SideForces::SideForces(const core::Scene& scene, const Materials& materials, dou
     : dt_(dt) {
   LoadLaws loads;
   for_each_called<MakeLoad>(list, scene, [&](MakeLoad make, const std::string& law) { make(scene, law, loads); });
-  // Those with a memory have their places in it one behind the other.
+  // Effects with a memory have consecutive places in it.
   for_each_called<MakeForce>(list, scene, [&](MakeForce make, const std::string&) {
     effects_.push_back(
         make({scene, materials, density, viscosity, dt, interval, memory_end(), loads.added_mass != nullptr}));
@@ -19,7 +19,7 @@ SideForces::SideForces(const core::Scene& scene, const Materials& materials, dou
   for (const auto& effect : effects_) needs_vorticity_ |= effect->needs_vorticity();
 }
 
-/// Behind the force and what the effects so far keep.
+/// End of the force and of the memory of the effects so far.
 std::size_t SideForces::memory_end() const {
   std::size_t end = SideRows::force_size;
   for (const auto& effect : effects_) end += effect->memory_size();
@@ -42,7 +42,7 @@ SideView SideForces::look(const Particles& particles, const Gather& gather, std:
   return {particles, loads, vorticity_};
 }
 
-/// The forces where the particles are now, in place of those before.
+/// Replaces the previous forces by those at the particles' present places.
 void SideForces::replace(const SideView& view) {
   for (std::size_t i = 0; i < view.loads.size(); ++i) std::fill_n(rows_.of(i), SideRows::force_size, 0.0);
   for (const auto& effect : effects_) effect->add(view, rows_);
@@ -65,9 +65,9 @@ void SideForces::begin(const Particles& particles, const Gather& gather, std::ve
 
 void SideForces::find(const Particles& particles, const Gather& gather, std::vector<FluidLoad>& loads) {
   if (!present()) return;
-  add_impulse(loads, 0.5 * dt_);  // of the half kick that has been
+  add_impulse(loads, 0.5 * dt_);  // for the half kick that has acted
   replace(look(particles, gather, loads));
-  add_impulse(loads, 0.5 * dt_);  // of the one that comes
+  add_impulse(loads, 0.5 * dt_);  // for the next one
 }
 
 void SideForces::refresh(const Particles& particles, const Gather& gather, std::vector<FluidLoad>& loads) {

@@ -1,5 +1,5 @@
-// What side forces keep of each particle, side by side: the sum of the forces, then the memory of each effect. It goes
-// with its particle from rank to rank and into a checkpoint.
+// Stored data of side forces per particle: the sum of the forces, then the memory of each effect. They move with their
+// particle from rank to rank and into a checkpoint.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace polybed::dem {
 
 struct SideRows {
   static constexpr std::size_t force_size = 3;  ///< first in a row, N
-  std::size_t width = 0;                        ///< numbers of a particle; 0 without an effect
+  std::size_t width = 0;                        ///< numbers per particle; 0 without an effect
   std::vector<double> numbers;
 
   [[nodiscard]] double* of(std::size_t i) { return numbers.data() + i * width; }
@@ -22,16 +22,16 @@ struct SideRows {
   void clear(std::size_t particles) { numbers.assign(particles * width, 0.0); }
 };
 
-/// Rows with the ids of their particles before them, in any order.
+/// Rows that begin with the id of their particle, in any order.
 struct KeptRows {
-  std::size_t width = 0;  ///< with the id; 0: nothing is kept
+  std::size_t width = 0;  ///< including the id; 0: no data
   std::vector<double> numbers;
 
   [[nodiscard]] std::size_t count() const { return width == 0 ? 0 : numbers.size() / width; }
   [[nodiscard]] const double* of(std::size_t n) const { return numbers.data() + n * width; }
 };
 
-/// Of the owned particles, in their order.
+/// Rows of the owned particles, in their order.
 [[nodiscard]] inline KeptRows keep(const Particles& particles, const SideRows& rows) {
   KeptRows kept;
   if (rows.width == 0) return kept;
@@ -44,7 +44,7 @@ struct KeptRows {
   return kept;
 }
 
-/// Gives the owned particles theirs; zeros to those of which nothing is kept.
+/// Restores the rows of the owned particles; zeros for others.
 inline void recall(const KeptRows& kept, const Particles& particles, SideRows& rows) {
   if (rows.width == 0) return;
   std::unordered_map<std::int64_t, std::size_t> found;

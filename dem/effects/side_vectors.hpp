@@ -16,7 +16,7 @@ inline void put(double* row, const closures::Vec3& v) {
 }
 inline void add_to(double* row, const closures::Vec3& v) { put(row, to_vec3(row) + v); }
 
-/// U_f - U_p where a particle is, m/s.
+/// U_f - U_p at a particle, m/s.
 [[nodiscard]] inline closures::Vec3 slip_of(const SideView& view, std::size_t i) {
   return to_vec3(view.loads[i].velocity) - to_vec3(view.particles.motion[i].v);
 }

@@ -30,7 +30,7 @@ double even_place(const Part& part, std::size_t axis, int below, int count) {
   return part.low[axis] + (part.high[axis] - part.low[axis]) * below / count;
 }
 
-/// Thickness of the thinnest part that even cuts leave, m; infinite without a cut.
+/// Thickness of the thinnest part after equal cuts, m; infinite without a cut.
 double thinnest(const Part& part, int count) {
   if (count == 1) return std::numeric_limits<double>::infinity();
   const std::size_t axis = longest(part);
@@ -74,14 +74,14 @@ std::array<bool, 3> Decomposition::whole(double reach) const {
   return whole;
 }
 
-/// Whether a place is in a part; the outer parts hold what lies beyond the box, too.
+/// Whether a place is in a part; the outer parts extend beyond the box.
 bool Decomposition::holds(const Part& part, const Vector& x) const {
   for (std::size_t k = 0; k < 3; ++k)
     if ((x[k] < part.low[k] && part.low[k] > 0) || (x[k] >= part.high[k] && part.high[k] < box_.size[k])) return false;
   return true;
 }
 
-/// The place nearest to the one wanted (to a 64th of the way) whose two sides have room for their ranks.
+/// The place nearest to the wanted one (to a 64th of the way) that leaves room for the ranks on both sides.
 double Decomposition::cut_near(double wanted, const Part& part, std::size_t axis, int below, int count) const {
   const double even = even_place(part, axis, below, count);
   constexpr int tries = 64;
@@ -92,7 +92,7 @@ double Decomposition::cut_near(double wanted, const Part& part, std::size_t axis
         thinnest(other, count - below) >= least_)
       return at;
   }
-  return even;  // every part that is cut has room for even cuts
+  return even;  // every divided part has room for equal cuts
 }
 
 Vector Decomposition::centre() const {
@@ -113,8 +113,8 @@ double Decomposition::imbalance(std::span<const std::int32_t> work) const {
   return sum > 0 ? most * count_ / sum : 1;
 }
 
-/// Place along an axis below which lies a share of the work in a part, to a 4096th of its length; the middle if it has
-/// none. Sums of whole numbers: every rank finds the same.
+/// Place along an axis with a share of the work in a part below it, to a 4096th of its length; the middle without work.
+/// Sums of whole numbers: every rank gets the same result.
 double Decomposition::quantile(std::span<const Place> place, std::span<const std::int32_t> work,
                                std::span<const char> inside, const Part& part, std::size_t axis, double share) const {
   constexpr std::size_t bins = 4096;

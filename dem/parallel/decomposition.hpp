@@ -1,4 +1,4 @@
-// Which rank owns which part of the box: recursive bisection on measured work.
+// Division of the box among the ranks: recursive bisection on measured work.
 #pragma once
 
 #include <cstdint>
@@ -18,11 +18,11 @@ struct Part {
 
 class Decomposition {
  public:
-  /// All of the box in equal parts. \param least  thickness of a part, m: less is refused with core::CaseError here,
-  /// and never come about later
+  /// The whole box in equal parts. \param least  thickness of a part, m: thinner ones are rejected with core::CaseError
+  /// here, and never created later
   Decomposition(const Box& box, std::shared_ptr<const core::Ranks> ranks, double least);
 
-  /// Collective. Cuts anew so that each rank has the same work. \param place  of this rank's particles
+  /// Collective. Divides the box so that each rank has the same work. \param place  of this rank's particles
   /// \param work  of each, in whole units
   void balance(std::span<const Place> place, std::span<const std::int32_t> work);
   /// Collective: greatest over mean work of the ranks; 1 is balanced.
@@ -31,8 +31,8 @@ class Decomposition {
   [[nodiscard]] int owner(const Vector& x) const;
   [[nodiscard]] const std::vector<Part>& parts() const { return parts_; }
   [[nodiscard]] const Part& own() const { return parts_[std::size_t(rank_)]; }
-  /// Directions in which this rank's part is the whole box, or so much of it that a ghost may be near both of its
-  /// faces. \param reach  between centres, m, up to which ghosts are near
+  /// Directions in which this rank's part is the whole box, or so large a part that a ghost can be near both of its
+  /// faces. \param reach  greatest distance of ghosts, m, between centres
   [[nodiscard]] std::array<bool, 3> whole(double reach) const;
   [[nodiscard]] Vector centre() const;
 
@@ -42,7 +42,7 @@ class Decomposition {
   struct Cut {
     std::size_t axis;
     double at;      ///< m
-    int low, high;  ///< the cuts of both sides; -1 - rank: a part
+    int low, high;  ///< the cuts on both sides; -1 - rank: a part
   };
   [[nodiscard]] double quantile(std::span<const Place> place, std::span<const std::int32_t> work,
                                 std::span<const char> inside, const Part& part, std::size_t axis, double share) const;

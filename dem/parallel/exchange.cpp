@@ -7,12 +7,12 @@ namespace polybed::dem {
 
 namespace {
 
-/// Greatest over mean work of the ranks that is borne, and how often a cut is tried at most. Neither has an effect on
-/// what particles do.
+/// Accepted ratio of greatest to mean work of the ranks, and how often a cut is tried at most. Neither affects the
+/// particles.
 constexpr double most_imbalance = 1.15;
 constexpr int calls_between_cuts = 10;
 
-/// Items for each rank, laid one after the other.
+/// Items for each rank, one rank after the other.
 template <class Item>
 std::vector<int> pack(const std::vector<std::vector<Item>>& to, std::vector<Item>& out) {
   std::vector<int> counts;
@@ -43,13 +43,13 @@ Exchange::Exchange(const Box& box, std::shared_ptr<const core::Ranks> ranks, dou
       greatest_radius_(greatest_radius),
       decomposition_(box, ranks, 2 * greatest_radius) {}
 
-/// Whether a particle may touch one whose centre is in a part, of this box or of an image.
+/// Whether a particle can touch one whose centre is in a part, of this box or of an image.
 bool Exchange::near(const Place& place, const Part& part) const {
   double square = 0;
   for (std::size_t k = 0; k < 3; ++k) {
     const double length = box_.size[k];
     double away = std::max({part.low[k] - place.x[k], place.x[k] - part.high[k], 0.0});
-    // The outer parts of a box that does not wrap own what lies beyond it, too.
+    // The outer parts of a box that does not wrap also own the space beyond it.
     if (!box_.periodic[k] && (place.x[k] < part.low[k] ? part.low[k] <= 0 : part.high[k] >= length)) away = 0;
     if (box_.periodic[k]) {
       away = std::min({away, std::max(part.low[k] + length - place.x[k], 0.0),
@@ -61,7 +61,7 @@ bool Exchange::near(const Place& place, const Part& part) const {
   return square < far * far;
 }
 
-/// Whether particles in two parts may touch: so that most of the ranks need not be asked particle by particle.
+/// Whether particles in two parts can touch: this excludes most ranks without checks of single particles.
 bool Exchange::near(const Part& one, const Part& other) const {
   double square = 0;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -72,7 +72,7 @@ bool Exchange::near(const Part& one, const Part& other) const {
                        std::max(other.low[k] + length - one.high[k], 0.0)});
     square += away * away;
   }
-  const double far = (2 * greatest_radius_ + reach_) * (1 + 1e-9);  // more than round-off of the places
+  const double far = (2 * greatest_radius_ + reach_) * (1 + 1e-9);  // exceeds round-off of the places
   return square < far * far;
 }
 

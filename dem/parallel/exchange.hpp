@@ -1,8 +1,8 @@
-// What ranks tell each other of their particles: who moves to whom, and copies of those near another's part (ghosts).
+// Exchange of particles between ranks: migration, and copies of particles near another's part (ghosts).
 //
 // The thesis keeps three lists on every process: its own particles, those of its neighbours that it needs, and forces
-// that others must add. The first two are the owned particles and the ghosts here. The third is not needed: a pair
-// across ranks is computed on both, from the same numbers to the same bits.
+// for others to add. The first two are the owned particles and the ghosts here. The third is not needed: a pair across
+// ranks is computed on both, from the same numbers to the same bits.
 #pragma once
 
 #include <cstdint>
@@ -22,26 +22,26 @@ namespace polybed::dem {
 
 class Exchange {
  public:
-  /// \param reach  m: particles whose surfaces are nearer than this may touch before the next choice of ghosts
+  /// \param reach  m: particles with nearer surfaces can touch before the next choice of ghosts
   Exchange(const Box& box, std::shared_ptr<const core::Ranks> ranks, double reach, double greatest_radius);
 
-  // Collective, all of these; nothing happens without ranks.
+  // All of these are collective and do nothing without ranks.
 
   /// Sends particles to the ranks that own their places, with their contacts. No ghosts before or after.
   void migrate(Particles& particles, KeptContacts& kept);
-  /// Sends what is kept of particles, in their order, to the ranks that own their places: before they migrate.
+  /// Sends data of particles, in their order, to the ranks that own their places: call it before they migrate.
   void send_ahead(const Particles& particles, std::vector<KeptLoad>& kept);
-  /// Likewise; nothing where nothing is kept.
+  /// Likewise; does nothing without data.
   void send_ahead(const Particles& particles, KeptRows& kept);
   /// Sends copies of particles to ranks whose parts they are near, and adds those received as ghosts.
   void choose_ghosts(Particles& particles);
-  /// Begins to tell the other ranks where their ghosts are now and how they move; between both calls the owned
-  /// particles may be read and their loads changed, ghosts must wait.
+  /// Starts to send the ghosts' present places and motions to other ranks. Until receive_ghosts() the owned particles
+  /// can be read and their loads changed, but ghosts must not be used.
   void send_ghosts(const Particles& particles);
-  /// Places and motions of the ghosts as their owners have them.
+  /// Sets places and motions of the ghosts to their owners'.
   void receive_ghosts(Particles& particles);
-  /// Cuts the box anew if the ranks' work differs too much; particles then have to migrate. At most at every tenth
-  /// call, since there is work that no cut can share. \param work  of each owned particle
+  /// Divides the box again if the ranks' work differs too much; particles must then migrate. At most at every tenth
+  /// call, since some work cannot be divided. \param work  of each owned particle
   void balance(const Particles& particles, std::span<const std::int32_t> work);
 
   /// Cuts since the start, and the greatest over the mean work of the ranks at the last call of balance().

@@ -22,7 +22,7 @@ std::vector<Item> all_on_first(const std::vector<Item>& own, const std::shared_p
   return all;
 }
 
-/// What the files show of a particle.
+/// Data of a particle in the files.
 struct Shown {
   std::int64_t id;
   std::int32_t species;
@@ -59,15 +59,15 @@ Snapshot snapshot_of(std::size_t count, Of&& of) {
   return all;
 }
 
-/// A row, told by its ids.
+/// A row, identified by its ids.
 struct Row {
   double low, high;
-  std::size_t at;  ///< number in the vector
+  std::size_t at;  ///< index in the vector
 
   [[nodiscard]] bool same(const Row& other) const { return low == other.low && high == other.high; }
 };
 
-/// Moves rows to where `from` says, within the vector: there may be no memory for a second one.
+/// Moves rows to the order in `from`, in place: memory may not suffice for a second vector.
 void permute(std::vector<double>& rows, std::size_t width, std::vector<Row>& from) {
   std::vector<double> first(width);
   for (std::size_t n = 0; n < from.size(); ++n) {
@@ -84,7 +84,7 @@ void permute(std::vector<double>& rows, std::size_t width, std::vector<Row>& fro
   }
 }
 
-/// Sorted by the ids that rows begin with, equal ones once.
+/// Sorts by the ids at the start of rows; removes duplicates.
 void put_in_order(std::vector<double>& rows, std::size_t width, std::size_t ids) {
   std::vector<Row> order(rows.size() / width);
   for (std::size_t n = 0; n < order.size(); ++n) order[n] = {rows[n * width], ids > 1 ? rows[n * width + 1] : 0, n};

@@ -44,7 +44,7 @@ void GridExchange::choose_all() {
 }
 
 void GridExchange::choose(const Particles& particles) {
-  constexpr int margin = 2;  // cells that particles may cross before the next choice
+  constexpr int margin = 2;  // cells that particles can cross before the next choice
   Region own;
   for (std::size_t a = 0; a < 3; ++a) {
     if (particles.owned == 0) continue;

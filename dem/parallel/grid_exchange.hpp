@@ -1,5 +1,5 @@
-// Where the fluid is cut into blocks and the particles into other parts: what each rank's particles touch goes to the
-// ranks that own the cells, and comes from them.
+// Exchange between the fluid's blocks and the particles' parts: sums from the cells around a rank's particles go to the
+// cells' owners, and values come from them.
 #pragma once
 
 #include <array>
@@ -23,13 +23,13 @@ class GridExchange {
 
   // Collective from here on.
 
-  /// From now on the particles of this rank touch the cells around them, and what they may reach meanwhile.
+  /// Sets the cells that this rank's particles touch, with those they can reach meanwhile.
   void choose(const Particles& particles);
-  /// From now on this rank touches the whole column.
+  /// Sets the whole column as touched by this rank.
   void choose_all();
-  /// Sends sums over this rank's particles to the owners of the entries, who add them up.
-  /// \param width  numbers of an entry, one beside the other  \param column  over the padded column
-  /// \param block  likewise of the block, set to the sums
+  /// Sends sums over this rank's particles to the owners of the entries, which add them up.
+  /// \param width  numbers per entry, contiguous  \param column  over the padded column
+  /// \param block  likewise for the block, set to the sums
   void add(std::size_t width, std::span<const std::int64_t> column, std::span<std::int64_t> block) const;
   /// Fetches fields of the blocks: on entries that this rank touches, from their owners.
   void fetch(std::span<const std::pair<const core::Field*, core::Field*>> block_to_column) const;
@@ -42,7 +42,7 @@ class GridExchange {
   [[nodiscard]] static Region common(const Region& a, const Region& b);
   [[nodiscard]] std::vector<Region> of_all(const Region& own) const;
   void choose(const Region& own);
-  /// Calls body(column entry, block entry) for the entries of a region. The second is one only where the region is in
+  /// Calls body(column entry, block entry) for the entries of a region. The second is valid only if the region is in
   /// this rank's block.
   template <class Body>
   void for_each_entry(const Region& region, Body&& body) const;
@@ -50,7 +50,7 @@ class GridExchange {
 
   core::Grid column_, block_;
   std::shared_ptr<const core::Ranks> ranks_;
-  std::vector<Region> owned_, touched_;  ///< of each rank
+  std::vector<Region> owned_, touched_;  ///< for each rank
 };
 
 }  // namespace polybed::dem

@@ -11,10 +11,10 @@ namespace polybed::dem {
 
 namespace {
 
-constexpr std::size_t rows_of_piece = 1 << 14;  ///< of a rank, about
-constexpr std::size_t ids = 2;                  ///< that travel before a row
+constexpr std::size_t rows_of_piece = 1 << 14;  ///< per rank, about
+constexpr std::size_t ids = 2;                  ///< sent before a row
 
-/// Of rows with their ids, the rows in the order of these.
+/// The rows sorted by the ids that precede them.
 std::vector<double> sorted_rows(const std::vector<double>& come, std::size_t width) {
   const std::size_t stride = ids + width;
   std::vector<const double*> order(come.size() / stride);
@@ -29,10 +29,10 @@ std::vector<double> sorted_rows(const std::vector<double>& come, std::size_t wid
 
 }  // namespace
 
-/// The rows cut by their low ids into pieces, and each piece into parts, one for each rank to write.
+/// The rows divided by their low ids into pieces, and each piece into parts, one for each rank to write.
 struct OrderedRows::Cut {
   std::shared_ptr<const core::Ranks> ranks;
-  std::size_t rank = 0, count = 1;  ///< this rank, and how many there are
+  std::size_t rank = 0, count = 1;  ///< this rank, and the number of ranks
   std::vector<std::int32_t> order;  ///< of this rank's rows
   std::vector<std::size_t> begin;   ///< of each part in `order`, and the end
   std::vector<std::int64_t> first;  ///< of each part in the dataset, and the end
@@ -49,7 +49,7 @@ struct OrderedRows::Cut {
     return exchanged(piece, width, fill);
   }
   [[nodiscard]] std::vector<double> exchanged(std::size_t piece, std::size_t width, const Fill& fill) const;
-  std::vector<std::array<double, ids>> names;  ///< ids of this rank's rows, in their order; only with others
+  std::vector<std::array<double, ids>> names;  ///< ids of this rank's rows, in their order; only with several ranks
 };
 
 std::vector<double> OrderedRows::Cut::exchanged(std::size_t piece, std::size_t width, const Fill& fill) const {
@@ -93,7 +93,7 @@ OrderedRows::OrderedRows(std::vector<RowName> own, std::shared_ptr<const core::R
     cut->begin.push_back(std::size_t(at - own.begin()));
     cut->first[std::size_t(p)] = std::int64_t(cut->begin.back());
   }
-  core::add_over_ranks(all, cut->first);  // rows of all ranks before a part
+  core::add_over_ranks(all, cut->first);  // rows on all ranks before a part
   cut->order.reserve(own.size());
   for (const RowName& row : own) cut->order.push_back(row.at);
   if (cut->ranks)
