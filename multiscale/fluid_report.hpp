@@ -1,4 +1,4 @@
-// What a run of particles says of the fluid between them: in run.json and at its end on the screen.
+// Report on the fluid in a run of particles: in run.json, and at its end on the screen.
 #pragma once
 
 #include <optional>
@@ -14,12 +14,12 @@ namespace polybed::multiscale {
 
 struct FluidReport {
   dem::FluidTotals totals;
-  std::string kernel, law;     ///< diffusion | bilinear; of drag, or none
-  bool shared = false;         ///< each rank solves for a block of the fluid, not for all of it
-  double kernel_width = 0;     ///< m; 0 of bilinear weights
-  int every = 1;               ///< steps of the particles in one of the fluid
+  std::string kernel, law;     ///< diffusion | bilinear; drag law, or none
+  bool shared = false;         ///< each rank solves for a block of the fluid instead of all of it
+  double kernel_width = 0;     ///< m; 0 for bilinear weights
+  int every = 1;               ///< steps of the particles per fluid step
   double step = 0;             ///< of the fluid, s
-  std::optional<double> work;  ///< of the fluid on the particles, its buoyancy included, J; absent without dem.ledger
+  std::optional<double> work;  ///< of the fluid on the particles, including buoyancy, J; absent without dem.ledger
 };
 
 /// \param dt  of the particles, s  \param work  of the fluid on all particles, J

@@ -29,15 +29,15 @@ namespace polybed::multiscale {
 
 namespace {
 
-/// Memory that the peak of a run grows by with each particle of a dense bed, with its ledger of energy
-/// (docs/record/cost.md), and what output takes at any size; bytes.
+/// Increase of a run's peak memory per particle of a dense bed, with its ledger of energy (docs/record/cost.md), and
+/// memory for output of any size; bytes.
 constexpr double bytes_per_particle = 1000, bytes_of_output = 12e6;
 
-/// Memory that the peak of a run grows by with each cell of the fluid.
+/// Increase of a run's peak memory per cell of the fluid.
 constexpr double bytes_per_cell = 1100;
 
-/// A sphere that moves as fast as any of n does in random motion of the speed s per component: the mean of the
-/// greatest of n magnitudes is s sqrt(2 ln n) and a little more, which hardly moves the step.
+/// A sphere as fast as the fastest of n in random motion with speed s per component: the mean of the greatest of n
+/// magnitudes is s sqrt(2 ln n) and a little more, which hardly changes the step.
 double fastest_of(double speed, std::int64_t n) {
   return speed * std::sqrt(3 + 2 * std::log(double(std::max<std::int64_t>(n, 1))));
 }
@@ -46,10 +46,10 @@ std::int64_t sum_of(const std::vector<std::int64_t>& numbers) {
   return std::accumulate(numbers.begin(), numbers.end(), std::int64_t(0));
 }
 
-/// The start as far as time and memory depend on it.
+/// Data of the start that affect time and memory.
 struct Start {
   std::vector<std::int64_t> numbers;  ///< of each species
-  /// That stand for all in what depends on the fastest and the highest: one or two of each species.
+  /// Represent all particles where only the fastest and the highest matter: one or two per species.
   std::vector<dem::Particle> foremost;
 };
 
@@ -62,7 +62,7 @@ dem::Particle particle(const dem::Materials& materials, std::size_t species, con
   return particle;
 }
 
-/// Not by start_particles(): a run asks for it while its own particles fill the memory.
+/// Avoids start_particles(), as a run calls this while its own particles fill the memory.
 Start listed_start(const core::Scene& scene, const dem::Materials& materials) {
   const core::ParticleList list = core::read_particle_list(scene);
   const auto speed = [&](std::size_t n) {
@@ -92,10 +92,10 @@ Start start_of(const core::Scene& scene, const dem::Materials& materials) {
   return start;
 }
 
-/// Whether the scene's particles move in a fluid that is solved for.
+/// Whether the scene's particles move in a solved fluid.
 bool couples(const core::Scene& scene) { return scene.fluid.present() && scene.column.shear_rate == 0; }
 
-/// Courant number of the fluid in a time: of what flows in, between packed particles, and of the viscous stress.
+/// Courant number of the fluid over a time: from the inflow, between packed particles, and from the viscous stress.
 double courant_of(const core::Scene& scene, double dt) {
   double inflow = 0;
   const auto see = [&](const std::vector<std::pair<double, double>>& velocity) {
@@ -133,7 +133,7 @@ std::vector<std::int64_t> fed_in(const core::Scene& scene, const dem::Materials&
   return dem::Feeding(scene, materials, box, dem::skin_of(scene, materials), 0).called_for(scene.run.until);
 }
 
-/// CPU time, s: of the particles, and of the fluid's steps. \param count  of particles, in the mean
+/// CPU time, s: for the particles, and for the fluid's steps. \param count  of particles, on average
 double expected_time(const ParticleRequirements& need, const ParticleSpeed& speed, double steps, double count) {
   const double particles =
       steps * (count * (need.fluid ? speed.particle_step_in_fluid : speed.particle_step) + speed.step);
@@ -233,7 +233,7 @@ void choose_stiffness(core::Scene& scene) {
   } catch (const core::StartError&) {
     throw;
   } catch (const core::CaseError&) {
-    // The particle model says why it cannot build this scene when it is asked to run it.
+    // The particle model reports why it cannot build this scene when it runs.
   }
 }
 
@@ -244,7 +244,7 @@ void choose_fluid_every(core::Scene& scene) {
     const double each = courant_of(scene, particle_requirements_of(scene).limits.dt);
     scene.dem.fluid_every = std::clamp(int(sound / std::max(each, 1e-9)), 1, core::most_fluid_every);
   } catch (const core::CaseError&) {
-    // The particle model says why it cannot build this scene when it is asked to run it.
+    // The particle model reports why it cannot build this scene when it runs.
   }
 }
 

@@ -36,7 +36,7 @@ std::string typed_program() {
 }
 
 fs::path beside_program(const fs::path& from_program, const fs::path& in_sources) {
-  if (this_program().parent_path() == POLYBED_BUILD) return in_sources;  // what is beside the build is not ours
+  if (this_program().parent_path() == POLYBED_BUILD) return in_sources;  // ignores files next to the build
   std::error_code unknown;
   const fs::path installed = (this_program().parent_path() / from_program).lexically_normal();
   return fs::exists(installed, unknown) ? installed : in_sources;
@@ -102,8 +102,8 @@ void keep_ranks_for_runs(int ranks) {
 
 namespace {
 
-/// mpirun as a child that ends with this process. Its process group is its own: Ctrl-C on a terminal reaches a whole
-/// group, and mpirun gives ranks a second before it kills them.
+/// mpirun as a child that ends with this process. It has its own process group: Ctrl-C on a terminal reaches a whole
+/// group, and mpirun gives ranks only a second before it kills them.
 [[noreturn]] void become_child(const std::vector<std::string>& words, pid_t parent, const sigset_t& signals) {
   ::setpgid(0, 0);
   ::prctl(PR_SET_PDEATHSIG, SIGTERM);
@@ -124,7 +124,7 @@ core::ExitCode run_ranks(int ranks, const std::vector<std::string>& words) {
   ::sigaddset(&watched, SIGCHLD);
   for (const int signal : core::stop_signals()) ::sigaddset(&watched, signal);
   ::sigprocmask(SIG_BLOCK, &watched, &before);
-  std::signal(SIGCHLD, SIG_DFL);  // who ignores it would not learn how a child has ended
+  std::signal(SIGCHLD, SIG_DFL);  // a process that ignores it would not learn how a child ended
   const pid_t parent = ::getpid(), child = ::fork();
   if (child < 0) throw core::MpiError(fmt::format("cannot start {}: {}", all.front(), std::strerror(errno)));
   if (child == 0) become_child(all, parent, before);

@@ -19,7 +19,7 @@ namespace polybed::multiscale {
 
 namespace {
 
-/// Debian's own Python: another one may come first on the path and lack the packages.
+/// Debian's own Python: another one earlier on the path could lack the packages.
 constexpr const char* python = "/usr/bin/python3";
 
 std::vector<std::string> words_of(const std::string& module, const std::vector<std::string>& arguments) {
@@ -29,7 +29,7 @@ std::vector<std::string> words_of(const std::string& module, const std::vector<s
   return words;
 }
 
-/// Starts a program, with standard output and error into a descriptor unless that is -1; 0 or why it did not start.
+/// Starts a program, with standard output and error to a descriptor unless that is -1; 0 or the reason for failure.
 int start(std::vector<std::string> words, int output, pid_t& child) {
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
@@ -51,7 +51,7 @@ std::string read_all(int input) {
   }
 }
 
-/// Exit code of a child, as a shell tells it.
+/// Exit code of a child, in a shell's form.
 int wait_for(pid_t child) {
   int status = 0;
   while (::waitpid(child, &status, 0) < 0)

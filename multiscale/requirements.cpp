@@ -16,7 +16,7 @@ namespace polybed::multiscale {
 
 namespace {
 
-constexpr std::size_t sample_cells = 12000;  ///< enough that their memory stands out, few enough for a second
+constexpr std::size_t sample_cells = 12000;  ///< enough that their memory is visible, few enough for a second
 constexpr int sample_steps = 100;
 
 std::size_t cell_count(const core::Scene& scene) {
@@ -24,7 +24,7 @@ std::size_t cell_count(const core::Scene& scene) {
   return std::size_t(cells[0]) * std::size_t(cells[1]) * std::size_t(cells[2]);
 }
 
-/// Draws one direction in to a number of cells.
+/// Reduces one direction to a number of cells.
 void draw_in(core::Scene& scene, std::size_t axis, int cells) {
   core::Column& column = scene.column;
   const double share = double(cells) / column.cells[axis];
@@ -51,14 +51,14 @@ void draw_in(core::Scene& scene, std::size_t axis, int cells) {
   if (column.is_round()) column.shape = core::ColumnShape::box;
   const bool fed_above = std::any_of(scene.feeds.begin(), scene.feeds.end(),
                                      [](const core::Feed& feed) { return feed.at == core::ColumnFace::top; });
-  if (fed_above) column.outlet = core::Outlet::screen;  // one that is left of a few cells may be fed shut
+  if (fed_above) column.outlet = core::Outlet::screen;  // a few remaining cells could be fed shut
 }
 
 int fewer(int cells, double share, int least) {
   return std::min(cells, std::max(least, int(std::lround(cells * share))));
 }
 
-/// Takes steps, then what a checkpoint takes; returns the CPU time of a step, s, or nothing if the numbers fail.
+/// Takes steps, then makes a checkpoint; returns the CPU time of a step, s, or nothing if the computation fails.
 std::optional<double> time_of_step(tfm::Model& model, double until, int most_steps) {
   const double begin = core::cpu_seconds();
   double spent = 0;
@@ -91,7 +91,7 @@ double lifted_fraction(const core::Scene& scene, const tfm::Model& model) {
   return std::min(rest, model.effects().solids_stress->solids_fraction_at(carried * weight));
 }
 
-/// The bed at rest, lifted, and as the inlet's greatest velocity expands it, with their scales and steps.
+/// The bed at rest, lifted, and expanded at the inlet's greatest velocity, with time scales and steps.
 void estimate_steps(const core::Scene& scene, const tfm::Model& model, Requirements& need) {
   const tfm::Constants& constants = model.constants();
   const double velocity = superficial_velocity(model), fastest = model.inlet().greatest();
@@ -118,15 +118,15 @@ void estimate_steps(const core::Scene& scene, const tfm::Model& model, Requireme
   need.lifted = state(std::max(lifted_fraction(scene, model), expanded));
 }
 
-/// Time for which a bed that starts packed stays so, s: while the inlet's fluid fills its height once. Measured.
+/// Time for which a bed that starts packed remains so, s: until the inlet's fluid has filled its height once. Measured.
 double packed_time(const core::Scene& scene, const Requirements& need, double velocity) {
   if (need.expanded.solids_fraction == need.rest.solids_fraction) return scene.run.until;
   if (scene.bed.start_solids_fraction < scene.tfm.frictional_onset) return 0;
   return std::min(scene.run.until, scene.bed.static_height / velocity);
 }
 
-/// Steps of an implicit run while its step grows to that of the bed: from its start, and after each checkpoint, where
-/// the integrator forgets its history. For each ten-fold beyond 0.1 ms; measured on packed beds in three dimensions.
+/// Steps of an implicit run while its step grows to the bed's: from its start, and after each checkpoint, where the
+/// integrator loses its history. For each factor of ten above 0.1 ms; measured on packed beds in three dimensions.
 double growing_steps(const core::Scene& scene, const Requirements& need) {
   if (need.integrator != core::TfmIntegrator::implicit_steps) return 0;
   constexpr double from = 1e-4, of_start = 30, of_restart = 7;
@@ -144,11 +144,11 @@ TimeNeed time_need(const core::Scene& scene, const Requirements& need, double ve
   return time;
 }
 
-/// Two samples of different width, built and stepped one after the other: what the process grows by from the first to
-/// the second is what their difference in cells takes, whatever the program itself takes.
+/// Two samples of different width, built and stepped one after the other: the growth of the process from the first to
+/// the second is the memory for their difference in cells, independent of the program itself.
 struct Sample {
   std::size_t cells;
-  double peak;  ///< memory of the process until then, bytes
+  double peak;  ///< memory of the process up to then, bytes
 };
 
 double padded_cells(core::Grid grid, const std::array<int, 3>& cells) {
@@ -162,7 +162,7 @@ MemoryNeed memory_need(const core::Scene& scene, const tfm::Model& part, const S
   const auto cells = double(cell_count(scene));
   const double state = double(part.state_bytes()), fields = double(tfm::bytes_of(part.fields()));
   const auto own = double(large.cells);
-  // What a run takes beyond its sample, measured: gaps between blocks and results on their way; HDF5 and its buffers.
+  // Memory of a run beyond its sample, measured: gaps between blocks and results in transit; HDF5 and its buffers.
   constexpr double beyond = 1.1, output = 12e6;
   const double grown = std::max(0.0, large.peak - small.peak) / std::max(own - double(small.cells), 1.0);
   need.state = state * cells / own;
@@ -178,7 +178,7 @@ Sample small_sample(const core::Scene& part) {
   draw_in(half, 0, std::max(1, part.column.cells[0] / 2));
   core::Timers timers;
   tfm::Model model(half, timers);
-  constexpr int steps = 2;  // after which all that is made at need has been made
+  constexpr int steps = 2;  // afterwards every lazily created object exists
   (void)time_of_step(model, half.run.until, steps);
   return {cell_count(half), core::process_memory().most};
 }
@@ -202,7 +202,7 @@ core::Scene narrow_part(const core::Scene& scene, std::size_t most_cells) {
   constexpr double far_too_high = 0.1;
   if (share() < far_too_high) {
     draw_in(part, 1, fewer(cells[1], share(), least));
-    // The packing that holds the bed's weight follows from its height, which is no longer that of the case.
+    // The packing that carries the bed's weight depends on its height, which differs from the case's.
     if (part.tfm.max_packing == core::MaxPacking(core::PackingRule::automatic))
       part.tfm.max_packing = part.bed.solids_fraction + 0.05;
   }
@@ -286,7 +286,7 @@ void refuse_beyond_memory(const core::Scene& scene, double bytes, const core::Av
 }
 
 void require_memory(const core::Scene& scene) {
-  constexpr double much_per_cell = 20e3;  // bytes; more than any case measured takes
+  constexpr double much_per_cell = 20e3;  // bytes; above all measured cases
   const core::AvailableMemory available = core::available_memory();
   if (double(cell_count(scene)) * much_per_cell < 0.5 * available.bytes) return;
   core::Timers timers;

@@ -15,7 +15,7 @@ const relevance::Menu& menu() {
   static const relevance::Menu all = [] {
     relevance::Menu both;
     for (const tfm::Maker* one : tfm::effects()) relevance::add(both, *one->effect, "tfm", one->slot);
-    // One case file describes a scene for both models, so a case may say how its particles touch.
+    // One case file describes a scene for both models, so it can define contacts.
     for (const dem::Maker* one : dem::effects()) relevance::add(both, *one->effect, "dem", one->slot);
     return both;
   }();

@@ -1,4 +1,4 @@
-// run.json: what the records of both models share.
+// run.json: common parts of both models' records.
 #pragma once
 
 #include <span>
@@ -15,18 +15,18 @@ namespace polybed::multiscale {
 /// The processor's name as the system gives it; "unknown" elsewhere.
 [[nodiscard]] std::string processor();
 
-/// Writes "size_classes": what became of the species with a distribution; nothing if there is none.
+/// Writes "size_classes": the species with a distribution and their classes; nothing if there is none.
 void write_size_classes(core::Json& json, const core::Scene& scene);
 
-/// Begins a record with what is the same for both models: program, case, machine.
+/// Starts a record with the common parts for both models: program, case, machine.
 void begin_record(core::Json& json, const core::Scene& scene, const std::string& model, const std::string& state,
                   int ranks);
 
-/// Writes "invariants": the worst value of each, its limit, when it was, whether it held, and whether a run that breaks
-/// it ends.
+/// Writes "invariants": the worst value of each, its limit, its time, whether it was satisfied, and whether a violation
+/// ends the run.
 void write_invariants(core::Json& json, std::span<const measures::WorstInvariant> worst);
 
-/// One line for each invariant that is beyond its limit: what the warnings of a record begin with.
+/// One line for each invariant beyond its limit, for the start of a record's warnings.
 [[nodiscard]] std::vector<std::string> exceeded_lines(std::span<const measures::WorstInvariant> worst);
 
 /// Writes "timers": seconds by term.

@@ -54,7 +54,7 @@ Broken fluid_unknown(const core::Scene& scene) {
   return {};
 }
 
-/// Beyond what is wrong at the temperature of the case.
+/// Problems other than at the temperature of the case.
 Broken fluid_unknown_in_range(const core::Scene& scene) {
   if (scene.chooser.temperature_range.empty() || fluid_unknown(scene)) return {};
   for (const double kelvin : scene.chooser.temperature_range) {
@@ -69,10 +69,10 @@ bool shares_are_known(const core::Scene& scene) {
   return !scene.species.empty() && scene.bed.volume_share.size() == scene.species.size();
 }
 
-/// Solids fraction beyond which spheres of these sizes cannot be packed, each size alone in a crystal.
+/// Solids fraction above which spheres of these sizes cannot be packed, even with each size alone in a crystal.
 double densest_packing(const core::Scene& scene) { return packing_of_sizes(scene, closures::crystal_packing); }
 
-/// Share of the whole column that the solids fill.
+/// Share of the whole column occupied by the solids.
 double share_of_column(const core::Scene& scene) {
   const core::Bed& bed = scene.bed;
   const double height = scene.column.even_height(scene.column.size[1]);
@@ -107,7 +107,7 @@ Broken more_than_the_column_takes(const core::Scene& scene) {
   return share > densest ? Broken({fmt::format("{:.3g}", share), fmt::format("{:.3g}", densest)}) : Broken();
 }
 
-/// Of the fluid and the bed, whatever effects there are.
+/// Rules for the fluid and the bed, whatever effects there are.
 std::vector<core::Rule> scene_rules_of_both() {
   return {{{"fluid.name", "fluid.temperature", "fluid.density", "fluid.viscosity"}, "{}", fluid_unknown},
           {{"chooser.temperature_range", "fluid.name", "fluid.temperature", "fluid.density", "fluid.viscosity"},
@@ -165,7 +165,7 @@ core::Scene read_case(const std::filesystem::path& path, const std::vector<std::
 core::Scene read_chosen_case(const std::filesystem::path& path, const std::vector<std::string>& overrides,
                              const Models& models) {
   core::Scene chosen = with_choice(read_case(path, overrides, models));
-  if (!chosen.chooser.chosen.empty()) refuse(chosen, models);  // what is chosen beside what is given
+  if (!chosen.chooser.chosen.empty()) refuse(chosen, models);  // chosen effects in addition to given ones
   choose_stiffness(chosen);
   choose_fluid_every(chosen);
   if (const auto file = relevance::drag_file(core::law_of(chosen, "drag")))

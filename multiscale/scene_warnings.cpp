@@ -20,7 +20,7 @@ namespace {
 using Table = std::vector<std::pair<double, double>>;  ///< (time, velocity)
 using Lines = std::vector<std::string>;
 
-/// What flows in through the bottom, or through the bottom and the sides in and out, each by its name.
+/// Inflows through the bottom, or through the bottom and both ways through the sides, each with its name.
 std::vector<std::pair<std::string, Table>> inflows_of(const core::Scene& scene, bool sides = false) {
   std::vector<std::pair<std::string, Table>> inflows{{"inlet.superficial_velocity", scene.inlet.superficial_velocity}};
   for (std::size_t n = 0; n < scene.jets.size(); ++n)
@@ -33,7 +33,7 @@ std::vector<std::pair<std::string, Table>> inflows_of(const core::Scene& scene, 
   return inflows;
 }
 
-/// m/s, 0 if none is negative, or positive.
+/// Least value, m/s; 0 if none is negative. Likewise the greatest.
 double least_of(const Table& table) {
   double least = 0;
   for (const auto& [time, velocity] : table) least = std::min(least, velocity);
@@ -55,7 +55,7 @@ bool floats(const core::Scene& scene, double fluid_density) {
   return excess < 0;
 }
 
-/// m/s, of a lone particle of the species that rises fastest.
+/// Speed, m/s, of a lone particle of the species that rises fastest.
 double fastest_rise(const core::Scene& scene, const relevance::FluidConstants& fluid) {
   double rise = 0;
   for (const core::Species& s : scene.species)
@@ -66,7 +66,7 @@ double fastest_rise(const core::Scene& scene, const relevance::FluidConstants& f
   return rise;
 }
 
-/// A fluid that is drawn out at the bottom.
+/// Warns of fluid drawn out at the bottom.
 void warn_of_downflow(const core::Scene& scene, const relevance::FluidConstants& fluid, Lines& warnings) {
   const bool hangs = scene.column.gravity > 0 && floats(scene, fluid.density) &&
                      -least_of(scene.inlet.superficial_velocity) < fastest_rise(scene, fluid);
@@ -98,7 +98,7 @@ void warn_of_floating_species(const core::Scene& scene, double density, Lines& w
                       scene.column.outlet == core::Outlet::open ? "leaves at the top" : "gathers under the screen"));
 }
 
-/// A gas without compressibility: its density changes by M^2/2 where it comes to rest.
+/// Warns of a fast gas without compressibility: its density changes by M^2/2 where it stops.
 void warn_of_fast_gas(const core::Scene& scene, double density, Lines& warnings) {
   constexpr double adiabatic_exponent = 1.4, fast = 0.3;  // 5 % of the density
   if (scene.fluid.compressible() || density >= relevance::lightest_liquid) return;
@@ -113,7 +113,7 @@ void warn_of_fast_gas(const core::Scene& scene, double density, Lines& warnings)
   }
 }
 
-/// Spheres that are denser than they pack at random.
+/// Warns of spheres denser than random packing.
 void warn_of_dense_packing(const core::Scene& scene, Lines& warnings) {
   constexpr double random_packing = 0.64, margin = 0.01;
   if (!has_shares(scene) || scene.species.empty()) return;
@@ -125,7 +125,7 @@ void warn_of_dense_packing(const core::Scene& scene, Lines& warnings) {
         given, densest, 100 * (given / densest - 1)));
 }
 
-/// Rows of cells that the settled bed needs, and all of the column.
+/// Warns if the settled bed or the whole column has too few rows of cells.
 void warn_of_coarse_grid(const core::Scene& scene, Lines& warnings) {
   constexpr double least_rows = 4;
   const double row = scene.column.size[1] / scene.column.cells[1], bed = scene.bed.static_height;
@@ -150,7 +150,7 @@ void warn_of_fine_grid(const core::Scene& scene, Lines& warnings) {
         1e3 * least, least / largest));
 }
 
-/// Not refused: cases of a chain are checked before the run that the next one begins from.
+/// Not rejected: cases in a chain are checked before the run whose checkpoint the next one needs.
 void warn_of_missing_start(const core::Scene& scene, Lines& warnings) {
   const std::filesystem::path& path = scene.bed.start.file;
   std::error_code error;

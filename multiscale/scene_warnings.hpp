@@ -1,4 +1,4 @@
-// What a scene is probably not meant to be, and what that does to the answer.
+// Probable mistakes in a scene, and their effect on the result.
 #pragma once
 
 #include <string>
@@ -8,13 +8,12 @@
 
 namespace polybed::multiscale {
 
-/// One line for each thing that can be computed and is rarely meant: an inlet that draws fluid out, a species that
-/// floats, a checkpoint to start from that is not there, a bed that hangs, a gas faster than an incompressible one can
-/// be,
-/// spheres packed more densely than at random. \param scene  that keeps the rules
+/// One line for each setting that can be computed but is rarely intended: an inlet that draws fluid out, a species that
+/// floats, a missing checkpoint to start from, a bed that hangs, a gas too fast for an incompressible fluid, spheres
+/// packed more densely than at random. \param scene  that satisfies the rules
 [[nodiscard]] std::vector<std::string> scene_warnings(const core::Scene& scene);
 
-/// Of the two-fluid model: a grid too coarse for the bed, or finer than its particles.
+/// For the two-fluid model: a grid too coarse for the bed, or finer than its particles.
 [[nodiscard]] std::vector<std::string> grid_warnings(const core::Scene& scene);
 
 }  // namespace polybed::multiscale

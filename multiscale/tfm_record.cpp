@@ -23,7 +23,7 @@ Json work_of(const tfm::Work& work) {
           {"first_order_cells", work.first_order_cells}};
 }
 
-/// Of a run that has failed: the steps before, with what limited each.
+/// For a failed run: the last steps, with the limit of each.
 Json last_steps_of(const std::deque<tfm::StepLine>& steps) {
   Json json = Json::array();
   for (const tfm::StepLine& step : steps)
@@ -31,7 +31,7 @@ Json last_steps_of(const std::deque<tfm::StepLine>& steps) {
   return json;
 }
 
-/// How often closures were asked outside their range.
+/// Number of closure evaluations outside their range.
 Json guards_of(const std::vector<tfm::ClosureUse>& closures) {
   Json json = Json::array();
   for (const tfm::ClosureUse& use : closures)
@@ -39,7 +39,7 @@ Json guards_of(const std::vector<tfm::ClosureUse>& closures) {
   return json;
 }
 
-/// The smallest G/G_crit of the run with its place; null if nothing ever slipped.
+/// The smallest G/G_crit in the run with its place; null if there was never slip.
 Json well_posedness_of(const tfm::LeastWellPosed& least, int dimensions) {
   if (!std::isfinite(least.cell.least)) return nullptr;
   const auto place = least.cell.place.begin();
@@ -50,7 +50,7 @@ Json well_posedness_of(const tfm::LeastWellPosed& least, int dimensions) {
           {"share_below_1", least.share_below_now}};
 }
 
-/// Mass of each species at the start, in, out and in the column, and how well they add up.
+/// Mass of each species at the start, in, out and in the column, and the error of the balance.
 Json ledger_of(const tfm::Constants& constants, const RunTotals& totals, const measures::Invariants& invariants) {
   Json ledger = Json::array();
   for (std::size_t j = 0; j < constants.species(); ++j) {

@@ -1,4 +1,4 @@
-// run.json of the continuum model: what a run was, what it did, and how it stands.
+// run.json of the continuum model: description of a run, its work, and its state.
 #pragma once
 
 #include <functional>
@@ -15,29 +15,29 @@
 
 namespace polybed::multiscale {
 
-/// What the ranks of a run have done together.
+/// Totals over the ranks of a run.
 struct RunTotals {
   int ranks = 1;
   double cpu_seconds = 0;
-  double wall_seconds = 0;  ///< by the clock of the first rank
+  double wall_seconds = 0;  ///< on the first rank's clock
   std::vector<tfm::ClosureUse> closures;
   std::vector<double> masses;         ///< of the species in the column, kg
-  std::vector<fluid::Passed> passed;  ///< through open ends; empty if there are none
+  std::vector<fluid::Passed> passed;  ///< through open ends; empty without any
 };
 
-/// How often each closure of the model was evaluated, on all ranks. Collective.
-/// \param before  by the processes before this one
+/// Number of evaluations of each closure in the model, on all ranks. Collective.
+/// \param before  by earlier processes
 [[nodiscard]] std::vector<tfm::ClosureUse> closures_of(const tfm::Model& model,
                                                        std::span<const tfm::ClosureUse> before = {});
 
 /// Collective.
 /// \param cpu_seconds  of this process
-/// \param wall_seconds  likewise, by the clock
-/// \param before  as of closures_of()
+/// \param wall_seconds  likewise, on the clock
+/// \param before  as in closures_of()
 [[nodiscard]] RunTotals totals_of(const tfm::Model& model, double cpu_seconds, double wall_seconds,
                                   std::span<const tfm::ClosureUse> before);
 
-/// Everything that goes into the record; borrowed for the call.
+/// Contents of the record; borrowed for the call.
 struct RunRecord {
   const core::Scene& scene;
   const tfm::Model& model;
@@ -47,9 +47,9 @@ struct RunRecord {
   double begin;       ///< simulated time at which this process began, s
   RunTotals totals;
   const LeftOut& left_out;
-  const Neglected* promise = nullptr;           ///< what a monitor has seen; null without one
+  const Neglected* promise = nullptr;           ///< observations of a monitor; null without one
   std::vector<std::string> warnings;            ///< its own
-  std::function<void(core::Json&)> write_card;  ///< and the prediction: writes their members
+  std::function<void(core::Json&)> write_card;  ///< writes the members of the card and the prediction
 };
 
 /// The record as one JSON object.

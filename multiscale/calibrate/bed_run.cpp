@@ -1,5 +1,5 @@
-// Fluidised boxes: the pressure of particles that a stream carries, by their stress in slabs and by the balance of the
-// forces above.
+// Fluidised boxes: the pressure of suspended particles, from their stress in slabs and from the balance of the forces
+// above.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -21,19 +21,19 @@ namespace polybed::multiscale {
 
 namespace {
 
-/// Width of the box and of its cells, in diameters; height of the column over that of the bed.
+/// Width of the box and of its cells, in diameters; height of the column over the bed's.
 constexpr double width = 8, cell = 2, headroom = 1.6;
-/// Times of the stream through the bed: before the average, and of it.
+/// Times in which the stream crosses the bed: before the average, and during it.
 constexpr double settle = 2, average = 8;
-/// Deviation of the Gaussian of a slab, in diameters.
+/// Deviation of a slab's Gaussian, in diameters.
 constexpr double slab = 1.5;
-/// Part of the bed's height that is looked at: away from the distributor and from the surface.
+/// Measured part of the bed's height: away from the distributor and from the surface.
 constexpr double low_part = 0.3, high_part = 0.7;
-/// Solids fraction up to which a narrow column of spheres is filled at random without trouble.
+/// Solids fraction up to which a narrow column is easily filled with random spheres.
 constexpr double most_at_start = 0.4;
 constexpr int heights = 9, blocks_of_a_bed = 20;
 
-/// Superficial velocity at which drag carries the buoyant weight at a voidage.
+/// Superficial velocity at which drag balances the buoyant weight at a voidage.
 double carrying_velocity(const core::Scene& scene, const MeanSphere& mean, double voidage) {
   const relevance::FluidConstants fluid = relevance::fluid_constants(scene.fluid);
   if (!core::acts(scene, "drag"))
@@ -45,10 +45,10 @@ double carrying_velocity(const core::Scene& scene, const MeanSphere& mean, doubl
       voidage);
 }
 
-/// What a bed is told by, at one of the heights or summed over them.
+/// Measured values of a bed, at one of the heights or summed over them.
 struct Slabs {
   double phi = 0, stress = 0, balance = 0;
-  double number = 0, square = 0;  ///< of the particles there: how many, and of their velocities about the bed's
+  double number = 0, square = 0;  ///< particles there: their number, and their squared velocities relative to the bed's
 
   [[nodiscard]] std::array<double, 5> all() const { return {phi, stress, balance, number, square}; }
 };
@@ -73,7 +73,7 @@ class BedRun {
     const double transit = height_ / box_.inlet.superficial_velocity[0].second;
     for (double until = settle * transit; model_.time() < until;) model_.step(1e300);
     std::vector<double> phi, stress, balance, theta;
-    // Drag is integrated between the fluid's steps: looks that fall on all phases of one see its mean.
+    // Drag is integrated between the fluid's steps: samples at all phases of a step give its mean.
     const int every = model_.coupling()->every() + 1;
     for (int b = 1; b <= blocks_of_a_bed; ++b) {
       Slabs sum;
@@ -125,7 +125,7 @@ class BedRun {
         const Slab solids = slab_at(k, 0), passing = slab_at(k, radius);
         sum.phi += volume * solids.weight(y) * per;
         sum.stress += mass * v * v * passing.weight(y) * per;
-        sum.balance -= force * passing.below(y) * per;  // what lies above presses
+        sum.balance -= force * passing.below(y) * per;  // particles above press on it
       }
     }
     for (const dem::ContactForce& c : dem::contact_forces(model_)) {

@@ -19,15 +19,15 @@ namespace polybed::multiscale {
 
 namespace {
 
-/// Four or five looks at the stress in a contact: half a sine wave summed so is exact to 1e-3.
+/// Four or five samples of the stress per contact: the sum over half a sine wave is then exact to 1e-3.
 constexpr std::int64_t steps_per_look = 4;
 constexpr int blocks_of_a_run = 20;
 
-/// Difference of the mean velocities over sqrt(theta) that a push aims at: slow, as the reference is, and well above
-/// noise.
+/// Target of a push for the difference of the mean velocities over sqrt(theta): slow, as in the reference, and well
+/// above noise.
 constexpr double slip_aimed_at = 0.25;
 
-/// What is averaged over a block, SI; theta_j follow.
+/// Averages over a block, SI; followed by theta_j.
 enum Column : std::size_t {
   theta,
   pressure,
@@ -106,8 +106,8 @@ class BoxRun {
     time_ += time;
   }
 
-  /// Forces of opposite sense along z, which shear leaves alone, for the slip aimed at by the reference at the
-  /// temperature that the box begins with.
+  /// Chooses opposite forces along z, in which shear has no effect, for the target slip by the reference at the initial
+  /// temperature of the box.
   void choose_push() {
     const double theta = box_.dem.start_speed * box_.dem.start_speed;
     force_ = exchange_reference(theta, theta, 0) * slip_aimed_at * std::sqrt(theta);
@@ -118,7 +118,7 @@ class BoxRun {
   void push() {
     if (!push_.empty()) model_.push(push_);
   }
-  /// <U_z> of the first species less that of the second, m/s.
+  /// <U_z> of the first species minus the second's, m/s.
   [[nodiscard]] double drift_apart() const {
     std::array<double, 2> sum{};
     const dem::Particles& p = model_.particles();
@@ -160,7 +160,7 @@ class BoxRun {
     }
   }
 
-  /// Of the fluctuations and in the springs, J.
+  /// Energy of the fluctuations and in the springs, J.
   [[nodiscard]] double stored_energy() {
     const dem::Stress s = dem::stress_of(model_);
     return 0.5 * volume_ * (s.kinetic[0][0] + s.kinetic[1][1] + s.kinetic[2][2]) + dem::totals_of(model_).elastic +
@@ -209,7 +209,7 @@ class BoxRun {
     return estimate_of(ratio);
   }
 
-  /// 3 n_j k_j theta_j: what drag takes from the fluctuations.
+  /// 3 n_j k_j theta_j: loss of the fluctuations to drag.
   void find_sink(double rate) {
     if (model_.affine_drag() == nullptr) return;
     double drag = 0;
@@ -253,7 +253,7 @@ class BoxRun {
     return std::hypot(sum[0], sum[1], sum[2]) / all;
   }
 
-  /// t_c/tau at the temperature measured.
+  /// t_c/tau at the measured temperature.
   [[nodiscard]] double softness() const {
     const double g0 = closures::radial_distribution_dense(result_.point.phi).value;
     const double tau =
@@ -269,7 +269,7 @@ class BoxRun {
   double volume_ = 0, mass_ = 0, begin_energy_ = 0, time_ = 0;
   dem::Totals begin_;
   std::vector<double> number_, phi_;
-  std::vector<dem::Vector> push_;          ///< change of velocity at each look; empty: the species are not pushed apart
+  std::vector<dem::Vector> push_;          ///< change of velocity at each sample; empty: no push
   std::vector<double> slips_;              ///< of each block, m/s
   double force_ = 0;                       ///< on each species, N/m3
   std::vector<std::vector<double>> rows_;  ///< [Column][block]

@@ -1,4 +1,4 @@
-// Scenes of the boxes: sheared cubes of spheres, dry or wet.
+// Scenes for the boxes: sheared cubes of spheres, dry or wet.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -18,11 +18,11 @@ namespace {
 
 using std::numbers::pi;
 
-/// Steps in a contact, and the overlap over the diameter that the mean stress of a wet box makes.
+/// Steps per contact, and the overlap over the diameter from the mean stress in a wet box.
 constexpr double steps_per_contact = 20, wet_overlap = 1e-3;
-constexpr double least_film = 0.005;  ///< thickness over the diameter, unless dem.roughness is more
+constexpr double least_film = 0.005;  ///< thickness over the diameter, unless dem.roughness is greater
 
-/// What the stiffness and the length of the step follow from.
+/// Values that determine the stiffness and the step.
 struct Scales {
   MeanSphere mean;
   double least_mass;  ///< reduced, kg
@@ -44,7 +44,7 @@ std::vector<core::Species> species_of(const core::Scene& scene, const BoxPoint& 
   return species;
 }
 
-/// Numbers of particles for a share of the volume, about `number` in all.
+/// Numbers of particles for a share of the volume, about `number` in total.
 std::vector<std::int64_t> numbers_of(const std::vector<core::Species>& species, double share, int number) {
   if (species.size() == 1) return {number};
   const double one = (1 - share) / std::pow(species[0].diameter, 3), two = share / std::pow(species[1].diameter, 3);
@@ -58,16 +58,16 @@ double reduced_mass(const std::vector<core::Species>& species) {
   return least;
 }
 
-/// k of a damped contact that lasts a time: t_c = pi sqrt(m*/k)/sqrt(1 - beta^2).
+/// k of a damped contact with a given duration: t_c = pi sqrt(m*/k)/sqrt(1 - beta^2).
 double stiffness_of(double mass, double restitution, double duration) {
   const double beta = closures::damping_ratio_kept(restitution), omega = pi / duration;
   return mass * omega * omega / (1 - beta * beta);
 }
 
-/// Shear rate at which dry boxes run: any would do.
+/// Shear rate of dry boxes, which is arbitrary.
 constexpr double dry_shear_rate = 100;
 
-/// A contact lasts `softness` of the time between collisions, sqrt(pi) d/(24 phi g0 sqrt(theta)).
+/// A contact lasts `softness` times the time between collisions, sqrt(pi) d/(24 phi g0 sqrt(theta)).
 void make_dry(core::Scene& box, const core::Scene& scene, const BoxPoint& point, const Scales& scales) {
   const double e = closures::effective_restitution(point.restitution, point.friction), phi = point.phi;
   const double g0 = closures::radial_distribution_dense(phi).value;
@@ -84,7 +84,7 @@ void make_dry(core::Scene& box, const core::Scene& scene, const BoxPoint& point,
   box.dem.greatest_speed = 10 * speed + dry_shear_rate * box.column.size[1];
 }
 
-/// Contacts as stiff as keeps overlaps small under the viscous stress, steps that tell the thinnest film.
+/// Contacts stiff enough for small overlaps under the viscous stress; steps that resolve the thinnest film.
 void make_wet(core::Scene& box, const core::Scene& scene, const BoxPoint& point, const Scales& scales) {
   const relevance::FluidConstants fluid = relevance::fluid_constants(scene.fluid);
   const double d = scales.mean.diameter, mu = fluid.viscosity;
@@ -158,7 +158,7 @@ double particle_steps_of(const core::Scene& scene, const BoxPoint& point) {
   const core::Scene box = scene_of_box(scene, point);
   double count = 0;
   for (const std::int64_t n : box.bed.particles) count += double(n);
-  // Of a fluidised box the step follows from its contacts: a rough guess.
+  // The step of a fluidised box follows from its contacts: a rough estimate.
   return count * box.run.until / box.dem.fixed_step.value_or(1e-5);
 }
 

@@ -83,7 +83,7 @@ TableAxes axes_of(const core::Scene& scene, core::BoxRegime regime) {
   return a;
 }
 
-/// As calibrate.regime says, or by the numbers of the scene.
+/// From calibrate.regime, or from the numbers of the scene.
 tfm::Regime regime_of(const core::Scene& scene) {
   const core::BoxRegime given = scene.calibrate.regime;
   tfm::Regime regime = tfm::shear_regime(scene);
@@ -138,7 +138,7 @@ MeanSphere mean_sphere(const std::vector<core::Species>& species, const std::vec
 
 std::string box_hash(const core::Scene& scene, const BoxPoint& point) {
   const core::Calibrate& c = scene.calibrate;
-  // Counted up when such a box would be measured in another way.
+  // Increase it when such a box is measured in another way.
   const int method = point.regime == core::BoxRegime::bed || point.pushed ? 4 : 3;
   core::Scene box = scene_of_box(scene, point);
   return core::text_hash(fmt::format("{} {} {} {} {} {}{}\n{}", method, point.seed, c.strain, c.discard_strain,

@@ -1,5 +1,4 @@
-// What a calibration runs: the axes of its table and the scene of each box. The Python package chooses points and
-// seeds.
+// Plan of a calibration: the axes of its table and the scene of each box. The Python package chooses points and seeds.
 #pragma once
 
 #include <string>
@@ -11,16 +10,16 @@
 
 namespace polybed::multiscale {
 
-/// One box: where it stands in the table, and with which random numbers it begins.
+/// One box: its point in the table, and its random seed.
 struct BoxPoint {
   core::BoxRegime regime = core::BoxRegime::dry;  ///< dry | wet | bed
   double phi = 0, stokes = 0, restitution = 0, friction = 0, share = 0;
-  bool binary = false;  ///< two species, `share` the volume of the second; else one of the bed's mean size
-  bool pushed = false;  ///< both species also pushed apart, for what they exchange; its stress is not taken
+  bool binary = false;  ///< two species, `share` the volume of the second; else one with the bed's mean size
+  bool pushed = false;  ///< both species also pushed apart, to measure their exchange; its stress is not used
   int seed = 1;
 };
 
-/// Values of the axes, each rising; stokes is 0 alone of dry boxes, share 0 alone of spheres of one size.
+/// Values of the axes, each increasing; stokes is only 0 for dry boxes, share only 0 for spheres of one size.
 struct TableAxes {
   std::vector<double> phi, stokes, restitution, friction, share;
 };
@@ -31,7 +30,7 @@ struct Plan {
   bool binary = false;  ///< boxes of two species
 };
 
-/// What the keys of [calibrate] require, whatever boxes follow from them.
+/// Requirements of the keys in [calibrate], whatever boxes follow from them.
 [[nodiscard]] std::vector<core::Rule> calibrate_rules();
 
 /// Throws core::CaseError for a scene that breaks these rules, and for boxes that cannot be run.
@@ -40,14 +39,14 @@ struct Plan {
 /// The scene of a box: a cube for `dry` and `wet`, a column for `bed`.
 [[nodiscard]] core::Scene scene_of_box(const core::Scene& scene, const BoxPoint& point);
 
-/// A column of particles of one size whose superficial velocity expands it to a solids fraction by the scene's law of
-/// drag: point.phi. Spheres of the bed's mean size, as many as calibrate.particles.
+/// A column of particles of one size whose superficial velocity expands it to a solids fraction by the scene's drag
+/// law: point.phi. It contains calibrate.particles spheres of the bed's mean size.
 [[nodiscard]] core::Scene scene_of_bed(const core::Scene& scene, const BoxPoint& point);
 
 /// Steps of a box times its particles, without the doublings.
 [[nodiscard]] double particle_steps_of(const core::Scene& scene, const BoxPoint& point);
 
-/// A name that changes with everything that the box's result depends on.
+/// A name that changes with every input of the box's result.
 [[nodiscard]] std::string box_hash(const core::Scene& scene, const BoxPoint& point);
 
 /// Sauter diameter, m, and mean density by volume, kg/m3, of the solids of a scene.

@@ -12,7 +12,7 @@ namespace polybed::multiscale {
 
 namespace {
 
-/// Visits every line of a table along phi.
+/// Calls see(stokes, restitution, friction, share), all indices, for every line of a table along phi.
 void each_line(const tfm::SolidsTable& t,
                const std::function<void(std::size_t, std::size_t, std::size_t, std::size_t)>& see) {
   for (std::size_t s = 0; s < t.stokes.size(); ++s)
@@ -38,7 +38,7 @@ double pressure_shape(const tfm::SolidsTable& t, const closures::MonotoneCurve& 
          ratio(phi).pressure;
 }
 
-/// Ten points for each distance of knots, from 0 to 0.02 below jamming.
+/// Ten points per interval of knots, from 0 to 0.02 below jamming.
 std::vector<double> fine_grid(const std::vector<double>& knots, double jammed) {
   std::vector<double> all{0};
   all.insert(all.end(), knots.begin(), knots.end());

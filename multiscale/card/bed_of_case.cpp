@@ -42,11 +42,11 @@ double share_of_bottom(const core::Column& column, const Part& jet) {
     return std::numbers::pi * (jet.to[0] * jet.to[0] - jet.from[0] * jet.from[0]) / column.cross_section();
   double area = jet.to[0] - jet.from[0];
   const bool wide = jet.from.size() < 2 || jet.to.size() < 2;
-  area *= wide ? column.size[2] : jet.to[1] - jet.from[1];  // of two dimensions, on the bottom and in a side
+  area *= wide ? column.size[2] : jet.to[1] - jet.from[1];  // in two dimensions, on the bottom and in a side
   return area / column.cross_section();
 }
 
-/// All that flows in over the bottom's area: jets have a velocity of their own on their part of it, or come in beside.
+/// Total inflow over the bottom's area: jets replace the inlet's velocity on their part of it, or add from a side.
 double velocity_at_end(const core::Scene& scene) {
   const double inlet = value_at(scene.inlet.superficial_velocity, scene.run.until);
   double mean = inlet;
@@ -58,7 +58,7 @@ double velocity_at_end(const core::Scene& scene) {
   return mean;
 }
 
-/// Volume shares of the species, by the numbers of particles where the case has those; empty if it has neither.
+/// Volume shares of the species, from the numbers of particles if the case has them; empty if it has neither.
 std::vector<double> shares_of(const core::Scene& scene) {
   const std::size_t species = scene.species.size();
   std::vector<double> share = scene.bed.volume_share;
@@ -77,7 +77,7 @@ std::vector<double> shares_of(const core::Scene& scene) {
 struct Balance {
   std::string name;
   std::optional<closures::DragLaw> law;
-  double packed = 0;  ///< voidage of the settled bed; 0: not known
+  double packed = 0;  ///< voidage of the settled bed; 0: unknown
 
   [[nodiscard]] auto drag() const {
     return [this](double eps, double re) { return closures::pure_drag_at(*law, eps, re); };
@@ -102,8 +102,8 @@ struct Balance {
   }
 
  private:
-  /// Of a bed that expands in each slice of the column, which goes on above its top as wide as there, as the velocity
-  /// there asks; nothing if it would be four times as high.
+  /// Height of a bed that expands in each slice of the column by the velocity there; above its top the column continues
+  /// with the width of the top. Nothing if it would be four times as high.
   [[nodiscard]] std::optional<double> height_in_taper(const core::Column& column, const CarriedBed& bed,
                                                       double velocity, double solids) const {
     constexpr int slices = 200;
@@ -129,7 +129,7 @@ Balance balance_of(const core::Scene& scene) {
   return balance;
 }
 
-/// As one of its Sauter diameter and mean density. \param share  of each species; their sum may be below 1
+/// The mixture with its Sauter diameter and mean density. \param share  of each species; their sum can be below 1
 CarriedBed mixture_of(const core::Scene& scene, const std::vector<double>& share,
                       const relevance::FluidConstants& fluid, double gravity) {
   std::vector<double> part, diameter;
@@ -144,15 +144,15 @@ CarriedBed mixture_of(const core::Scene& scene, const std::vector<double>& share
   return {closures::sauter_diameter(part, diameter), density - fluid.density, fluid.density, fluid.viscosity, gravity};
 }
 
-/// The least time until the top of a bed that lies packed is where it is expected.
+/// Least time for the top of a packed bed to reach its expected height.
 std::optional<double> rising_time(const BedOfCase& bed, double settled, double top_of_column) {
-  constexpr double least = 1.02;  // times as high: below that nothing rises
+  constexpr double least = 1.02;  // ratio of heights: below it nothing rises
   if (!bed.own.height || bed.state != Fluidisation::fluidised || *bed.own.height < least * settled) return {};
   return closures::rising_time(std::min(*bed.own.height, top_of_column) - settled, *bed.velocity,
                                *bed.own.minimum_fluidisation);
 }
 
-/// What to expect of the whole bed at the velocity of its inlet. \param share  of each species
+/// Predicts the whole bed at the velocity of its inlet. \param share  of each species
 void expect(const core::Scene& scene, const Balance& balance, std::vector<double> share,
             const relevance::FluidConstants& fluid, double gravity, BedOfCase& bed) {
   using enum Fluidisation;
@@ -184,7 +184,7 @@ void expect(const core::Scene& scene, const Balance& balance, std::vector<double
     bed.rising_time = rising_time(bed, solids / (1 - balance.packed), scene.column.size[1]);
 }
 
-/// Of the rows of docs/record/validation.md with this kind of bed.
+/// From the rows in docs/record/validation.md with this kind of bed.
 std::string validity_of(const core::Scene& scene, bool gas) {
   if (gas)
     return "two measured gas beds by polybed tfm: the height of one comes out 12 % low, u_mf of the other 19 % high";
@@ -196,7 +196,7 @@ std::string validity_of(const core::Scene& scene, bool gas) {
   return "no measured bed of this kind";
 }
 
-/// Of the particles of a case over its opening, at their Sauter diameter and the solids fraction of the settled bed.
+/// Discharge of a case's particles through its opening, with their Sauter diameter and the settled solids fraction.
 std::optional<ExpectedDischarge> expected_discharge(const core::Scene& scene, double gravity) {
   const std::vector<double> share = shares_of(scene);
   const bool counted = scene.bed.particles.size() == scene.species.size();
@@ -217,7 +217,7 @@ std::optional<ExpectedDischarge> expected_discharge(const core::Scene& scene, do
                            mass, width / mean, !scene.column.is_tapered()};
 }
 
-/// All but the velocities of an expansion.
+/// Everything except the velocities of an expansion.
 BedOfCase bed_without_expansion(const core::Scene& scene) {
   BedOfCase bed;
   const double gravity = scene.column.gravity * std::max(0.0, -scene.column.down[1]);
@@ -264,9 +264,9 @@ BedOfCase bed_without_expansion(const core::Scene& scene) {
   return bed;
 }
 
-/// The velocity at which a law of `bed.others` expects the height; nothing if a species leaves the column before.
+/// The velocity at which a law in `bed.others` predicts the height; nothing if a species leaves the column before.
 std::optional<double> velocity_for(core::Scene scene, const BedOfCase& bed, std::size_t law, double height) {
-  constexpr double greatest = 100, step = 1.05;  // times u_mf, which lets no bed expand so far
+  constexpr double greatest = 100, step = 1.05;  // in units of u_mf, at which no bed expands this far
   const auto reaches = [&](double velocity) -> std::optional<bool> {
     scene.inlet.superficial_velocity = {{0.0, velocity}};
     const BedOfCase moved = bed_without_expansion(scene);

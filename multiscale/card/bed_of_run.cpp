@@ -15,7 +15,7 @@ namespace {
 using measures::TimeMean;
 using Series = std::vector<double>;
 
-/// The rows of a run from which means are taken.
+/// The rows of a run for the means.
 struct Window {
   const core::History& history;
   const Series& time;
@@ -36,8 +36,8 @@ double particles_of(const core::Species& species, double mass) {
   return mass / (species.density * closures::sphere_volume(species.diameter / 2));
 }
 
-/// Of all solids: mass in the column and particles at the first row, mass at the last, mean height at the end; and the
-/// mean height of each species.
+/// Inventory of all solids: mass in the column and particles at the first row, mass at the last, mean height at the
+/// end; and the mean height of each species.
 struct Inventory {
   double first = 0, particles = 0, last = 0, height = 0;
   std::vector<std::optional<TimeMean>> centre;  ///< of each species
@@ -82,7 +82,7 @@ bool is_pressed_down(const core::Scene& scene, const Inventory& all, const BedOf
   return bed.drop && bed.drop->mean > more && all.height < 0.5 * scene.column.size[1];
 }
 
-/// Whether a species belongs below another one where each finds its place by weight.
+/// Whether a species would be below another one if each found its place by weight.
 bool belongs_below(const core::Species& one, const core::Species& other) {
   return one.density != other.density ? one.density > other.density : one.diameter > other.diameter;
 }
@@ -102,7 +102,7 @@ Layers layers_of(const core::Scene& scene, const Inventory& all, const BedOfRun&
   return belongs_below(*lowest, *highest) ? Layers::layered : Layers::inverted;
 }
 
-/// What has left, and as a share of what could have.
+/// Computes the outflow, also as a share of the possible outflow.
 void find_outflow(const std::vector<measures::Kind>& kinds, const Window& window, BedOfRun& bed) {
   for (const measures::Kind& kind : kinds) {
     const Series *out = window.history.find("out_" + kind.name + "_kg"),
@@ -125,7 +125,7 @@ void find_tops(const std::vector<measures::Kind>& kinds, const Window& window, B
   }
 }
 
-/// A few particles make no rate, and what ran before the opening was blocked is not one of the hopper.
+/// A few particles do not define a rate, and flow before the opening was blocked is not a hopper's discharge.
 void find_discharge(const core::Scene& scene, const Window& window, const Inventory& all, BedOfRun& bed) {
   constexpr double least_particles = 10, most_left = 0.5;
   if (!scene.dem.opening) return;
@@ -136,7 +136,7 @@ void find_discharge(const core::Scene& scene, const Window& window, const Invent
       for (std::size_t n = 0; n < out.size(); ++n) out[n] += (*one)[n];
       number += particles_of(species, one->back());
     }
-  // A slot lets some grains through in each time in which they fall by its width.
+  // A slot lets some grains through in the time in which they fall by its width.
   const auto last = std::size_t(std::lower_bound(out.begin(), out.end(), out.back()) - out.begin());
   const double falls = 5 * std::sqrt(*scene.dem.opening / std::max(scene.column.gravity, 1e-3));
   const bool long_enough = window.time.back() - window.time[last] > falls;
@@ -150,7 +150,7 @@ void find_discharge(const core::Scene& scene, const Window& window, const Invent
   if (to > from) bed.discharge = (out[to] - out[from]) / (window.time[to] - window.time[from]);
 }
 
-/// s, in which particles of a species settle alone through a height: 0 without a fluid, or where they do not.
+/// Time, s, in which particles of a species settle alone through a height: 0 without a fluid, or if they do not settle.
 double settling_time(const core::Scene& scene, const core::Species& species, double height) {
   if (!scene.fluid.present()) return 0;
   const relevance::FluidConstants fluid = relevance::fluid_constants(scene.fluid);
@@ -160,7 +160,7 @@ double settling_time(const core::Scene& scene, const core::Species& species, dou
                                               scene.column.gravity, relevance::shape_of(scene, species));
 }
 
-/// A bed in a very viscous fluid creeps for longer than most runs last: its drift is judged against its settling.
+/// A bed in a very viscous fluid creeps for longer than most runs last: its drift is compared with its settling.
 void judge_drift(const core::Scene& scene, const Window& window, BedOfRun& bed) {
   std::vector<measures::HeightSeries> heights;
   const auto add = [&](const std::string& name, double settling) {
@@ -191,7 +191,7 @@ BedOfRun bed_of_run(const core::Scene& scene, const core::History& history) {
   bed.window = quarter.end - quarter.begin;
   const Window window{history, *time, quarter.rows(*time)};
   const Inventory all = inventory_of(scene, window);
-  constexpr double least_particles = 10;  // placed one by one, fewer are no bed
+  constexpr double least_particles = 10;  // listed particles: fewer are not a bed
   if (scene.bed.start.kind == core::StartKind::list && all.particles < least_particles) return bed;
   bed.height = window.mean("bed_height_m");
   bed.dense = window.mean("dense_height_m");
@@ -207,7 +207,7 @@ BedOfRun bed_of_run(const core::Scene& scene, const core::History& history) {
   const std::vector<measures::Kind> kinds = measures::kinds_of(names);
   find_outflow(kinds, window, bed);
   if (!bed.hangs) find_tops(kinds, window, bed);
-  if (bed.hangs) bed.height.reset(), bed.dense.reset();  // that of its top is the column's
+  if (bed.hangs) bed.height.reset(), bed.dense.reset();  // its top is the column's
   find_discharge(scene, window, all, bed);
   judge_drift(scene, window, bed);
   return bed;

@@ -24,7 +24,7 @@ core::Json json_or_null(const std::map<std::string, double>& values) {
   return values.empty() ? core::Json() : core::Json(values);
 }
 
-/// What follows for the species from the case alone.
+/// Predictions for the species from the case alone.
 core::Json velocities_of(const core::Scene& scene, const BedOfCase& bed) {
   core::Json fluidisation = core::Json::object(), terminal = core::Json::object(), geldart = core::Json::object();
   for (const SpeciesInFluid& species : bed.species) {
@@ -40,7 +40,7 @@ core::Json velocities_of(const core::Scene& scene, const BedOfCase& bed) {
           {"geldart", geldart.empty() ? core::Json() : geldart}};
 }
 
-/// One for each height that still drifts.
+/// One line for each height that still drifts.
 std::vector<std::string> drift_lines(const BedOfRun& bed) {
   std::vector<std::string> lines;
   for (const measures::DriftOfMeasure& d : bed.drifts)
@@ -62,7 +62,7 @@ bool matters(const LeftOut& left_out) { return left_out.sum > left_out.promise; 
 
 // ---- words
 
-/// By what a quantity is multiplied, and the prefix for it.
+/// Factor and prefix for a quantity.
 std::pair<double, const char*> prefix_of(double value) {
   const double size = std::abs(value);
   if (size >= 1 || size == 0) return {1, ""};
@@ -75,7 +75,7 @@ std::string with_prefix(double value, const char* unit) {
   return fmt::format("{:.3g} {}{}", factor * value, prefix, unit);
 }
 
-/// Two of them, with the prefix of the greater; one if they read alike.
+/// A range, with the prefix for the greater value; one value if both read the same.
 std::string range_text(double low, double high, const char* unit) {
   const auto [factor, prefix] = prefix_of(high);
   const std::string least = fmt::format("{:.3g}", factor * low), greatest = fmt::format("{:.3g}", factor * high);
@@ -86,7 +86,7 @@ std::string one_digit(double value) {
   return value < 9.5 ? fmt::format("{:.1g}", value) : fmt::format("{:.0f}", value);
 }
 
-/// In words; empty if it is not known.
+/// The state in words; empty if unknown.
 std::string words_of(Fluidisation state) {
   std::string words = name_of(state);
   std::replace(words.begin(), words.end(), '_', ' ');
@@ -95,7 +95,7 @@ std::string words_of(Fluidisation state) {
 
 std::string each(const std::vector<std::string>& parts) { return fmt::format("{}", fmt::join(parts, ", ")); }
 
-constexpr std::size_t most_species = 4;  // that a line names one by one
+constexpr std::size_t most_species = 4;  // that a line lists by name
 
 std::string of_species(const BedOfCase& bed, std::optional<double> SpeciesInFluid::*velocity) {
   std::vector<SpeciesInFluid> known;
@@ -113,8 +113,8 @@ std::string of_species(const BedOfCase& bed, std::optional<double> SpeciesInFlui
   return range ? parts.front() + " to " + parts.back() : each(parts);
 }
 
-/// The range of the laws that were made from such beds, and which they are; empty without any.
-/// \param most  of the numbers: the column's height, beyond which lies what a law gives no number for
+/// The range of the laws derived from such beds, with their names; empty without any.
+/// \param most  greatest number: the column's height, above which a law gives no number
 std::string by_others(const BedOfCase& bed, std::optional<double> ByLaw::*number, const char* unit,
                       std::optional<double> most) {
   std::vector<std::string> names;
@@ -135,7 +135,7 @@ std::string by_others(const BedOfCase& bed, std::optional<double> ByLaw::*number
 
 std::string in_kilograms(double mass) { return with_prefix(1e3 * mass, "g"); }
 
-/// Two digits, more where two would say that nothing differs or stop before the point.
+/// Two digits; more if two would show no difference or end before the point.
 std::string times_text(double ratio) {
   if (ratio >= 100) return fmt::format("{:.0f}", ratio);
   return std::abs(ratio - 1) < 0.05 ? fmt::format("{:.3g}", ratio) : fmt::format("{:.2g}", ratio);
@@ -163,7 +163,7 @@ void add_velocities(const BedOfCase& bed, std::vector<std::string>& lines) {
   if (!classes.empty()) lines.push_back(card_line("Geldart class", each(classes)));
 }
 
-/// What to expect of an opening in the bottom.
+/// Predictions for an opening in the bottom.
 void add_discharge(const ExpectedDischarge& out, std::vector<std::string>& lines) {
   const std::string width = fmt::format("the opening is {:.2g} particle diameters wide", out.diameters);
   if (!(out.rate > 0)) return lines.push_back(card_line("expect", "no discharge: " + width));
@@ -187,9 +187,9 @@ std::string out_text(const BedOfRun& bed) {
   return each(parts);
 }
 
-/// How high the bed is, and how far up each species reaches where they part, or one is suspended above the others.
+/// Height of the bed, and of each species if they separate or if one is suspended above the others.
 std::string height_text(const BedOfRun& bed) {
-  constexpr double above = 1.2;  // times the top of the dense bed
+  constexpr double above = 1.2;  // over the top of the dense bed
   const bool suspended = bed.state != Fluidisation::unknown && bed.dense &&
                          std::any_of(bed.tops.begin(), bed.tops.end(),
                                      [&](const auto& top) { return top.second.mean > above * bed.dense->mean; });
@@ -344,7 +344,7 @@ std::vector<std::string> expectation_lines(const core::Scene& scene, const BedOf
   const std::string others = by_others(bed, &ByLaw::minimum_fluidisation, "m/s", {});
   if (!others.empty()) lines.insert(lines.begin() + std::ptrdiff_t(before) + 1, card_line("", others));
   if (bed.rising_time) {
-    constexpr double window = 0.75;  // of a run lies before the last quarter, over which its card judges
+    constexpr double window = 0.75;  // part of a run before the last quarter, which its card uses
     std::string text = fmt::format("after {:.2g} s at least: the top rises no faster than u - u_mf", *bed.rising_time);
     if (window * scene.run.until < *bed.rising_time)
       text += fmt::format("; the run ends at {:.4g} s, too early: see --until steady", scene.run.until);

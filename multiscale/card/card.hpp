@@ -1,4 +1,4 @@
-// The result card: what a case or a run amounts to, in one object of run.json and a few lines.
+// The result card: the summary of a case or a run, as one object in run.json and a few lines.
 #pragma once
 
 #include <string>
@@ -15,9 +15,9 @@ namespace polybed::multiscale {
 struct Card {
   BedOfCase expected;
   BedOfRun seen;
-  std::string limited_by;  ///< what limited most steps; empty: no step yet
+  std::string limited_by;  ///< the limit of most steps; empty: no step yet
   LeftOut left_out;
-  std::optional<bool> in_bound;  ///< by what the run has met: what is left out stays within chooser.tolerance
+  std::optional<bool> in_bound;  ///< from the run's encounters: the neglected effects stay within chooser.tolerance
   std::optional<double> taken;   ///< CPU s; empty: it still runs
   TimeBand predicted;
 };
@@ -28,25 +28,25 @@ void write_card(core::Json& json, const core::Scene& scene, const Card& card);
 /// The member "expected" of a check, in the words of the card.
 void write_expected(core::Json& json, const core::Scene& scene, const BedOfCase& bed);
 
-/// Of a case that has not been run: what to expect.
+/// For a case without a run: its predictions.
 [[nodiscard]] std::vector<std::string> expectation_lines(const core::Scene& scene, const BedOfCase& bed);
 
-/// Of a run at its end.
+/// For a run at its end.
 [[nodiscard]] std::vector<std::string> result_lines(const Card& card);
 
-/// What a model leaves out, and whether that matters, in one line without its heading.
+/// The neglected effects of a model, and whether they matter, in one line without its heading.
 [[nodiscard]] std::string left_out_text(const LeftOut& left_out);
 
-/// A time mean with its interval, where that shows in four digits. \param scale  from SI to the unit
+/// A time mean with its interval, if that is visible in four digits. \param scale  from SI to the unit
 [[nodiscard]] std::string mean_text(const measures::TimeMean& mean, double scale, const std::string& unit);
 
 /// A computing time for people.
 [[nodiscard]] std::string short_time(double seconds);
 
-/// A time that is predicted, with its band.
+/// A predicted time, with its band.
 [[nodiscard]] std::string computing_text(const TimeBand& time);
 
-/// A line of a card: its heading, and what it says.
+/// A line of a card: its heading and its text.
 [[nodiscard]] std::string card_line(const std::string& heading, const std::string& text);
 
 }  // namespace polybed::multiscale

@@ -17,9 +17,9 @@ namespace {
 using State = relevance::EffectRow::State;
 using Kind = relevance::EffectRow::Kind;
 
-constexpr std::size_t most_named = 4;  // on the screen; the record has all
+constexpr std::size_t most_named = 4;  // on the screen; the record lists all
 
-/// Why a run does without a row; empty if it does not, or if the scene has nothing of it.
+/// Why a run neglects a row; empty if it does not, or if the scene does not contain it.
 std::string why_left_out(const relevance::EffectRow& row, const std::string& model) {
   if (row.kind == Kind::condition) return row.state == State::off && row.bound ? "off in the case" : "";
   if (row.kind == Kind::unmodelled) {
@@ -43,7 +43,7 @@ std::string with_bound(const LeftOutEffect& one) {
                      two_digits(*one.bound));
 }
 
-/// With its share of the weight; of what is uncertain from its least to its greatest.
+/// The effect with its share of the weight; for uncertain effects a range.
 std::string with_share(const LeftOutEffect& one) {
   const bool by_band = one.row.band && one.row.band->most == *one.bound;
   return fmt::format("{} {}{}", one.row.effect, by_band ? relevance::percent(one.row.band->least) + " to " : "",
@@ -54,14 +54,14 @@ bool is_among(const std::vector<LeftOutEffect>& effects, const std::string& effe
   return std::any_of(effects.begin(), effects.end(), [&](const auto& one) { return one.row.effect == effect; });
 }
 
-/// What is wrong with a law in any model: it ignores the neighbours that a bed has.
+/// The error of a law in any model: it ignores neighbours in a bed.
 std::string wrong_drag_of(const core::Scene& scene, const relevance::Choice& choice) {
   const std::string law = core::law_of(scene, "drag");
   const relevance::EffectRow* drag = relevance::find_row(choice.rows, "drag");
   return drag != nullptr && drag->model != law && relevance::ignores_neighbours(law) ? drag->reason : "";
 }
 
-/// The largest first, those beyond the most that are named as a count.
+/// The largest first; those beyond the number listed as a count.
 std::string largest_of(std::vector<LeftOutEffect> effects) {
   std::stable_sort(effects.begin(), effects.end(), [](const auto& a, const auto& b) { return *a.bound > *b.bound; });
   std::vector<std::string> named;
@@ -112,7 +112,7 @@ std::vector<std::string> remedies(const LeftOut& left_out) {
   std::stable_sort(effects.begin(), effects.end(),
                    [](const auto& a, const auto& b) { return a.bound.value_or(0) > b.bound.value_or(0); });
   std::vector<std::string> add, no_law, undecided, not_built;
-  constexpr double little = 0.1;  // of what may be left out: it changes nothing in the sum
+  constexpr double little = 0.1;  // of the tolerance: negligible in the sum
   for (const LeftOutEffect& one : effects) {
     const bool counts = one.row.summed || one.row.share_off;
     if (!counts || !(one.bound.value_or(0) > little * left_out.promise)) continue;
@@ -171,7 +171,7 @@ std::string called_for_line(const LeftOut& left_out) {
 
 std::string unsuited_line(const core::Scene& scene) {
   const std::string law = core::law_of(scene, "drag");
-  if (core::is_off(law) || relevance::ignores_neighbours(law)) return "";  // called_for_line has the latter
+  if (core::is_off(law) || relevance::ignores_neighbours(law)) return "";  // called_for_line covers the latter
   const relevance::Survey survey = relevance::survey(scene);
   const std::string why = relevance::unsuited(law, survey.drag_scene);
   if (why.empty() || !survey.has_fluid) return "";

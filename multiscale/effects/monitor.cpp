@@ -23,7 +23,7 @@ using closures::Vec3;
 
 constexpr int samples_before_warning = 3;
 
-/// The cell of a grid that owns its whole column in which a place, m, lies; the nearest of one outside.
+/// The cell that contains a place, m, in a grid that owns its whole column; the nearest cell for a place outside.
 std::size_t cell_at(const core::Grid& column, const std::array<double, 3>& place) {
   std::array<int, 3> cell{0, 0, 0};
   for (std::size_t a = 0; a < std::size_t(column.dimensions); ++a)
@@ -43,7 +43,7 @@ bool in_sample(std::int64_t number, int sample) {
 std::unique_ptr<Monitor> Monitor::of(const core::Scene& scene, const std::string& model) {
   const core::MonitorMode wish = scene.chooser.monitor;
   if (wish == core::MonitorMode::off || wish == core::MonitorMode::automatic || !scene.fluid.present()) return nullptr;
-  if (scene.column.shear_rate != 0) return nullptr;  // no cells of a fluid to look at
+  if (scene.column.shear_rate != 0) return nullptr;  // there are no cells of a fluid
   return std::make_unique<Monitor>(scene, model);
 }
 
@@ -154,7 +154,7 @@ void Monitor::recall(const core::Json& past, const core::Ranks* ranks) {
   settings_ = texts("settings");
   const auto& above = core::array_of(core::member_of(past, "above"));
   const auto& since = core::array_of(core::member_of(past, "since_s"));
-  // One that stops runs does so again with the next sample that is beyond.
+  // A monitor that stops runs does so again at the next sample beyond the limit.
   const bool stops = scene_.chooser.monitor == core::MonitorMode::stop;
   const int most = stops ? samples_before_warning - 1 : std::numeric_limits<int>::max();
   for (std::size_t n = 0; n < std::min({above.size(), since.size(), since_.size()}); ++n) {

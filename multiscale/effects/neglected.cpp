@@ -69,7 +69,7 @@ Neglected::Neglected(const core::Scene& scene, const std::string& model)
     effects_.push_back(entry->effect);
     Observed one;
     one.effect = row.effect;
-    one.bound = row.up_to.value_or(row.value.value_or(0));  // encounters beyond the law's range are counted apart
+    one.bound = row.up_to.value_or(row.value.value_or(0));  // encounters outside the law's range are counted separately
     observed_.push_back(one);
   }
   Observed sum;

@@ -17,7 +17,7 @@ namespace polybed::multiscale {
 
 namespace {
 
-/// What runs took over what was expected of them: its middle, and the factor either way that holds nine of ten.
+/// Ratio of actual to predicted time: its middle, and the factor on either side that covers nine of ten runs.
 struct Spread {
   double middle, factor;
 };
@@ -39,7 +39,7 @@ Spread tfm_spread(core::TfmIntegrator integrator) {
 constexpr double probe_factor = 1.8;
 /// Of the particles, with constants of this machine: dilute beds are up to four times as fast as the measured ones.
 constexpr Spread dem_spread{1, 2.5};
-/// Constants that were not measured on this machine.
+/// Factor for constants measured on another machine.
 constexpr double shipped_factor = 3;
 
 Spread with_machine(Spread spread, const Machine& machine) {
@@ -51,33 +51,33 @@ const char* basis_of(const Machine& machine) {
                           : "another machine's speed: polybed estimate --machine measures yours in half a minute";
 }
 
-/// Ranks share the work but for what each waits: parallel.md.
+/// Ranks share the work except for their waiting times: parallel.md.
 double wall_of(double cpu, int ranks) {
   constexpr double efficiency = 0.88;
   return ranks > 1 ? cpu / (ranks * efficiency) : cpu;
 }
 
-/// Adds what is known within a factor of 2. \param before  of that what is before the first step
+/// Adds a part that is known within a factor of 2. \param before  its part before the first step
 TimeBand beyond(TimeBand band, double more, double before) {
   return {band.least + more / 2, band.expected + more, band.most + 2 * more, before};
 }
 
 double rows(double until, double every) { return every > 0 ? std::floor(until / every * (1 + 1e-9)) + 1 : 2; }
 
-/// CPU seconds of output.
+/// CPU seconds for output.
 double output(const core::Scene& scene, const Machine& machine) {
   return machine.stored_step * rows(scene.run.until, *scene.output.every) +
          machine.history_row * rows(scene.run.until, *scene.output.history_every);
 }
 
-/// CPU seconds before the first step of particles: the program's start, their places, and until they have settled.
+/// CPU seconds before the first step of particles: the program's start, their places, and settling.
 double before_particles(const core::Scene& scene, const Machine& machine, const ParticleRequirements& need) {
   const bool placed =
       scene.bed.start.kind != core::StartKind::list && scene.bed.start.kind != core::StartKind::checkpoint;
   return machine.start + (placed ? machine.placed_particle * double(need.count()) : 0) + need.before;
 }
 
-/// A run of the two-fluid model by what its steps take.
+/// A run of the two-fluid model from the time of its steps.
 TimeBand with_start(const TimeBand& steps, const core::Scene& scene, const Machine& machine) {
   return beyond(steps, machine.start + output(scene, machine), machine.start);
 }
@@ -90,14 +90,14 @@ TimeBand with_start(const TimeBand& steps, const core::Scene& scene, const Machi
 }
 
 /// Bytes of report.html: text, curves, and for each stored time a map of every field and the places of the particles,
-/// each part within its limit (python/polybed/report/beds.py). As measured on the templates, within a factor of 2.
+/// each part within its limit (python/polybed/report/beds.py). Measured on the templates, within a factor of 2.
 double report_of(double stored, double cells, double particles, double species) {
   constexpr double text = 50e3, curves = 15e3, map_cell = 0.5, place = 8, most = 4e6;
   return text + curves * species + std::min(most, map_cell * stored * cells * (2 * species + 2)) +
          std::min(most, place * stored * particles);
 }
 
-/// Bytes of a run's files, as counted from what they hold: docs/reference/files.md.
+/// Bytes of a run's files, from their contents: docs/reference/files.md.
 double disk_of(const core::Scene& scene, double cells, double particles, double state, double steps) {
   const auto species = double(scene.species.size());
   const double dimensions = scene.column.dimensions;
@@ -114,7 +114,7 @@ double disk_of(const core::Scene& scene, double cells, double particles, double 
 
 int cores() { return std::max(1, int(std::thread::hardware_concurrency())); }
 
-/// Runs the case for some CPU seconds. Returns what a simulated second takes in the second half, and how far it got.
+/// Runs the case for some CPU seconds. Returns the cost of a simulated second in the second half, and the time reached.
 template <class Model>
 std::pair<double, double> probed(Model& model, double until, double seconds) {
   const double begin = core::cpu_seconds();
@@ -131,7 +131,7 @@ std::pair<double, double> probed(Model& model, double until, double seconds) {
   return {(spent - half_spent) / std::max(covered - half_time, 1e-300), covered};
 }
 
-/// A band from what a probe took: what it covered is known, the rest goes on at the rate expected of it.
+/// A band from a probe: the covered part is known, the rest continues at the predicted rate.
 TimeBand probed_band(double covered, double until, double spent, double rest) {
   const double left = 1 - covered / until, factor = 1 + (probe_factor - 1) * left;
   return band_of(spent + rest * left, {1, factor});

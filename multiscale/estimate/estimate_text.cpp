@@ -1,4 +1,4 @@
-// What an estimate says, to people and to programs.
+// Text of an estimate, for people and for programs.
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>

@@ -20,7 +20,7 @@ namespace {
 
 constexpr const char* filetype = "polybed machine";
 
-/// System B's two sizes; in the liquid the bed starts at a solids fraction of 0.3, where the fluid carries it.
+/// System B's two sizes; in the liquid the bed starts at a solids fraction of 0.3, where the fluid suspends it.
 constexpr const char* solids = R"(
 [column]
 size = ["60 mm", "300 mm"]
@@ -68,7 +68,7 @@ core::Scene scene_in(const std::string& fluid, const std::vector<std::string>& o
   return core::parse_case(solids + fluid, "the bed that measures the machine", overrides, all_roles(), size_classes);
 }
 
-/// CPU seconds of a step, after some that are not counted.
+/// CPU seconds of a step, after some uncounted ones.
 template <class Model>
 double seconds_of_step(const core::Scene& scene, double seconds) {
   core::Timers timers;
@@ -99,7 +99,7 @@ std::filesystem::path machine_file() {
 
 Machine known_machine() {
   const std::filesystem::path path = machine_file();
-  std::error_code closed;  // a home that this user must not enter
+  std::error_code closed;  // a home directory that is not readable
   if (path.empty() || !std::filesystem::exists(path, closed)) return {};
   try {
     const Machine machine = machine_of_text(core::read_text(path));

@@ -1,4 +1,4 @@
-// Ways to halve the time of a run, with what is known of the loss.
+// Ways to halve the time of a run, with their known loss.
 #include "multiscale/estimate/estimate.hpp"
 
 #include <fmt/format.h>
@@ -24,14 +24,14 @@ Way shorter(const core::Scene& scene) {
           "intervals of means 1.4 times as wide; too short if the bed still drifts then", "extrapolated"};
 }
 
-/// Whether a round column may have its cells divided so across: where it is narrow, enough of them have to be open.
+/// Whether a round column can have these cells across: a narrow one needs enough open cells.
 bool takes_wider_cells(core::Scene scene, double ratio) {
   for (const std::size_t axis : {0, 2}) scene.column.cells[axis] = std::max(int(scene.column.cells[axis] / ratio), 1);
   return core::problems_of(core::wall_rules(), scene).empty();
 }
 
 void add_coarser(std::vector<Way>& ways, const core::Scene& scene, bool implicit) {
-  // An explicit step follows the cells; an implicit one does not where free fall through a cell sets it.
+  // An explicit step scales with the cells; an implicit one does not if free fall through a cell limits it.
   const int powers = scene.column.dimensions + (implicit ? 0 : 1);
   const double ratio = std::pow(2.0, 1.0 / powers);
   if (!takes_wider_cells(scene, ratio)) return;
@@ -42,7 +42,7 @@ void add_coarser(std::vector<Way>& ways, const core::Scene& scene, bool implicit
                   "extrapolated"});
 }
 
-/// Of a box two dimensions, of a round column rings, of these and of two dimensions one column of cells.
+/// A box becomes two-dimensional, a round column rings; rings and two dimensions become one column of cells.
 void add_fewer_dimensions(std::vector<Way>& ways, const core::Scene& scene) {
   const core::Column& column = scene.column;
   const int across = column.cells[0], deep = column.cells[2];
@@ -74,10 +74,10 @@ std::vector<Way> first_ways(std::vector<Way> ways) {
 std::vector<Way> tfm_ways(const core::Scene& scene, bool implicit, int ranks, int cores) {
   std::vector<Way> ways;
   const double cells = double(scene.column.cells[0]) * scene.column.cells[1] * scene.column.cells[2];
-  constexpr double enough_cells = 20000;  // below it waiting takes what sharing gains
+  constexpr double enough_cells = 20000;  // below it waiting costs as much as sharing saves
   if (2 * ranks <= cores && cells / ranks >= enough_cells)
     ways.push_back(more_ranks(ranks, 0.58, ", 1.7 times as fast"));
-  constexpr double loosest = 1e-2, factor = 8;  // steps of a second-order method go with the third root of rtol
+  constexpr double loosest = 1e-2, factor = 8;  // steps of a second-order method scale with the third root of rtol
   if (implicit && scene.tfm.rtol * factor <= loosest)
     ways.push_back({fmt::format("relative tolerance tfm.rtol = {:.2g}", factor * scene.tfm.rtol), 0.5,
                     "error of the time integration 8 times as large", "extrapolated"});
@@ -98,7 +98,7 @@ std::vector<Way> dem_ways(const core::Scene& scene, const std::string& limited_b
                       fmt::format("collisions less exact: a restitution of 0.9 is off by up to {}",
                                   steps >= 40 ? "0.002" : "0.01"),
                       "measured"});
-    // The time of a contact goes with E^(-2/5), Hertz.
+    // The duration of a contact scales with E^(-2/5), Hertz.
     const double softer = std::pow(2.0, 2.5);
     ways.push_back({fmt::format("Young's moduli divided by {:.2g}", softer), 0.5,
                     "larger overlaps; contacts four times as long changed the pressure of collisions by 2 % at most",

@@ -19,9 +19,9 @@ using closures::DragLaw;
 using Residual = std::function<std::optional<double>(double)>;
 constexpr double least_voidage = 0.2;
 constexpr int scan = 4000;          ///< intervals of the scan for roots
-constexpr int scan_of_pairs = 400;  ///< the same of a mean law with a partition: there are 75 of them to list
+constexpr int scan_of_pairs = 400;  ///< the same for a mean law with a partition: there are 75 of them to list
 
-/// Roots of a residual that may be undefined in places, in (low, high): sign changes of a scan, refined by bisection.
+/// Roots in (low, high) of a residual that can be undefined in places: sign changes of a scan, refined by bisection.
 std::vector<double> roots(const Residual& residual, double low, double high, int intervals) {
   std::vector<double> found;
   std::optional<double> last;
@@ -46,7 +46,7 @@ std::vector<double> roots(const Residual& residual, double low, double high, int
   return found;
 }
 
-/// Ridders' method: a root of a function that is below 0 at low and above 0 at high, to its last digits.
+/// Ridders' method: a root of a function that is below 0 at low and above 0 at high, to the last digits.
 double ridders(const std::function<double(double)>& f, double low, double high, double at_low, double at_high) {
   double last = low;
   for (int n = 0; n < 60; ++n) {
@@ -63,7 +63,7 @@ double ridders(const std::function<double(double)>& f, double low, double high, 
   return last;
 }
 
-/// u > 0 with load(u) = target, for a load that grows with u: bisection in the logarithm, then Ridders' method.
+/// Solves load(u) = target for u > 0, with a load that grows with u: bisection in the logarithm, then Ridders' method.
 double velocity_of(const std::function<double(double)>& load, double target) {
   double low = 1e-12, high = 1e3;
   const auto halve = [&] {
@@ -78,12 +78,12 @@ double velocity_of(const std::function<double(double)>& load, double target) {
   return std::sqrt(low * high);
 }
 
-/// Of solids and fluid together, kg/m3; T(5.6).
+/// Density of solids and fluid together, kg/m3; T(5.6).
 double bulk_density(const BinaryBed& bed, double voidage) {
   return (1 - voidage) * (bed.share[0] * bed.density[0] + bed.share[1] * bed.density[1]) + voidage * bed.fluid.density;
 }
 
-/// Superficial velocity at which species j rests in a mixture, its drag being (rho_j - rho_b) g V_j; none where it
+/// Superficial velocity at which species j rests in a mixture, where its drag is (rho_j - rho_b) g V_j; none if it
 /// floats in the bulk. \param voidage  of the mixture
 std::optional<double> resting_velocity(const BinaryBed& bed, const DragLaw& law, double voidage, std::size_t j) {
   const double weight = (bed.density[j] - bulk_density(bed, voidage)) * bed.gravity;
@@ -176,7 +176,7 @@ std::vector<InversionPoint> by_expansion(const BinaryBed& bed, const DragLaw& la
   return points;
 }
 
-/// Left less right side of T(5.10) with rho_f (printed rho_b), for a share x of species 1.
+/// Left minus right side of T(5.10) with rho_f (printed rho_b), for a share x of species 1.
 double gibilaro(const BinaryBed& bed, double x, double voidage, double u) {
   const double mean = 1 / (x / bed.diameter[0] + (1 - x) / bed.diameter[1]);
   const double re = bed.fluid.density * u * mean / bed.fluid.viscosity;

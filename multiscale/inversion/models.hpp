@@ -1,5 +1,5 @@
-// The inversion point of a binary bed without a run: the velocity and voidage at which both species would
-// rest in a uniform mixture. The models of section 5.2 of the thesis that are defined there.
+// The inversion point of a binary bed without a run: the velocity and voidage at which both species would rest in a
+// uniform mixture. Contains the models of section 5.2 of the thesis that are defined there.
 #pragma once
 
 #include <array>
@@ -21,7 +21,7 @@ struct BinaryBed {
   double gravity = 9.81;  ///< m/s2
 };
 
-/// The bed of a case; throws core::CaseError if it has not two species with their shares.
+/// The bed of a case; throws core::CaseError unless it has two species with their shares.
 [[nodiscard]] BinaryBed binary_bed(const core::Scene& scene);
 
 struct InversionPoint {
@@ -29,16 +29,16 @@ struct InversionPoint {
   double voidage;
 };
 
-/// The methods by name, with what each is, for messages and lists.
+/// The methods by name, with descriptions for messages and lists.
 struct InversionMethod {
   std::string name, help;
-  bool takes_law;        ///< whether the drag law decides
-  bool takes_partition;  ///< and how it is shared between the species
+  bool takes_law;        ///< the drag law affects the result
+  bool takes_partition;  ///< and so does its distribution between the species
   std::vector<InversionPoint> (*points)(const BinaryBed& bed, const closures::DragLaw& law);
 };
 [[nodiscard]] const std::vector<InversionMethod>& inversion_methods();
 
-/// All inversion points with 0.2 < voidage < 1, by rising voidage; empty if there is none.
+/// All inversion points with 0.2 < voidage < 1, by increasing voidage; empty if there is none.
 /// Throws core::CaseError for an unknown method.
 ///
 /// - force_balance: T(5.4), (5.7), (5.12): F_d,j = (rho_j - rho_b) g V_j for both species; with di_felice T(5.13)

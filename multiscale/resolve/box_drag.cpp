@@ -18,7 +18,7 @@ namespace {
 
 using std::numbers::pi;
 
-/// Windows after which a flow that is still changing ends.
+/// Number of windows after which a flow that is still changing ends.
 constexpr double most_windows = 200;
 /// Change of the drag from one window to the next at which a flow is steady: in single precision round-off alone can
 /// keep it above 1e-5 for ever (1.3e-5 in 80 windows of one box of 88 spheres at Re 10).
@@ -39,10 +39,10 @@ lattice::FlowSetup setup_of(const BoxPlan& box, double reynolds) {
   return {{box.edge, box.edge, box.edge}, box.units.viscosity, reynolds > 0, lattice::Wall::interpolated};
 }
 
-/// Whether a species moves with the fluid where another is passed.
+/// Whether a species moves with the fluid past another one.
 bool moves(const ResolvePoint& point, std::size_t species) { return point.past >= 0 && int(species) != point.past; }
 
-/// Fluid and all species but one move past that one, whose places stay: of Stokes flow.
+/// Fluid and all other species move past one species, at fixed positions: for Stokes flow.
 template <class Real>
 void set_relative_motion(lattice::Flow<Real>& flow, const ResolvePoint& point, const SpherePacking& packing,
                          const std::vector<lattice::Sphere>& spheres, const lattice::Point& velocity) {
@@ -53,8 +53,7 @@ void set_relative_motion(lattice::Flow<Real>& flow, const ResolvePoint& point, c
   flow.set_velocity(velocity);
 }
 
-/// Force along x on each sphere by the films between the species that is passed and the others, where the flow does not
-/// resolve them, in units of the lattice.
+/// Force along x on each sphere from the unresolved films between the passed species and the others, in lattice units.
 std::vector<double> film_forces(const core::Scene& scene, const ResolvePoint& point, const SpherePacking& packing,
                                 const std::vector<lattice::Sphere>& spheres, const BoxPlan& box, double velocity) {
   std::vector<double> force(spheres.size(), 0);
@@ -98,10 +97,10 @@ double rate_of(const core::Scene& scene, const ResolvePoint& point, const Sphere
   return rate([&] { flow.advance({0, 0, 0}); });
 }
 
-/// How far a flow has come.
+/// Progress of a flow.
 struct Stand {
   lattice::SteadyProgress progress;
-  double seconds = 0;  ///< that it took
+  double seconds = 0;  ///< computing time
 };
 
 core::Checkpoint kept_stand(const Stand& stand) {
@@ -180,7 +179,7 @@ BoxDrag resolved(const core::Scene& scene, const ResolvePoint& point, const Sphe
   }
   for (std::size_t j = 0; j < count.size(); ++j) {
     drag.pure[j] /= count[j];
-    // The pressure that drives the flow acts on the spheres as well, as buoyancy does.
+    // The pressure that drives the flow also acts on the spheres, as buoyancy does.
     const double diameter = scene.species[j].diameter * box.scale;
     drag.net.push_back(drag.pure[j] + steady.driving[0] * diameter * diameter / (18 * units.viscosity * speed));
   }

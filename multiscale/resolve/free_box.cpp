@@ -19,17 +19,17 @@ namespace {
 
 using std::numbers::pi;
 
-/// Steps of the fluid between two samples of the velocities: they change in many more.
+/// Steps of the fluid between two samples of the velocities, which change more slowly.
 constexpr std::int64_t sampled = 20;
 
-/// The spheres of a packing with their contacts and films, whose drag is resolved.
+/// The spheres of a packing with their contacts and films; their drag is resolved.
 core::Scene suspension(const core::Scene& scene, const SpherePacking& packing, double greatest_speed) {
   core::Scene box = packing.scene;
   box.fluid = scene.fluid;
   box.material = scene.material;
   box.effects = scene.effects;
   using namespace relevance::effects;
-  if (lubrication.has(box, of_unresolved_flow)) box.effects.erase(lubrication.role);  // chosen: the flow is resolved
+  if (lubrication.has(box, of_unresolved_flow)) box.effects.erase(lubrication.role);  // chosen; flow is resolved
   box.contact_pairs = scene.contact_pairs;
   box.dem = scene.dem;
   box.dem.opening.reset();
@@ -39,7 +39,7 @@ core::Scene suspension(const core::Scene& scene, const SpherePacking& packing, d
   return box;
 }
 
-/// Steps of the spheres in a time, each at most as long as contacts allow.
+/// Steps of the spheres in a time, each no longer than contacts allow.
 int substeps_in(double time, const core::Scene& box) {
   const dem::Materials materials(box);
   const dem::PairLaws laws = dem::make_pair_laws(box, materials);
@@ -65,7 +65,7 @@ lattice::FlowSetup setup_of(const BoxPlan& plan) {
   return {{plan.edge, plan.edge, plan.edge}, plan.units.viscosity, true, lattice::Wall::interpolated};
 }
 
-/// Four times the speed at which the fastest species falls alone: contacts push some spheres faster.
+/// Four times the fall speed of the fastest species alone: contacts push some spheres faster.
 double greatest_speed(const BoxPlan& plan) { return 4 * plan.units.speed / plan.scale / plan.step; }
 
 }  // namespace
@@ -103,8 +103,8 @@ void FreeBox<Real>::step() {
   let_walls_follow();
 }
 
-/// Force on a site of the fluid, less the gradient of the mean pressure: it balances what the spheres weigh in the
-/// liquid, so that no force acts on the whole box.
+/// Force on a site of the fluid, minus the gradient of the mean pressure: it balances the buoyant weight of the
+/// spheres, so that the total force on the box is zero.
 template <class Real>
 double FreeBox<Real>::push() const {
   double weight = 0, volume = 0;
@@ -115,10 +115,10 @@ double FreeBox<Real>::push() const {
   return weight / (flow_.fluid_sites() + volume);
 }
 
-/// Impulses of the fluid, the weight and the mean pressure.
+/// Impulses from the fluid, the weight and the mean pressure.
 template <class Real>
 void FreeBox<Real>::kick_spheres() {
-  const double speed = 1 / plan_.scale / plan_.step, spin = 1 / plan_.step;  // units of the lattice, m/s and 1/s
+  const double speed = 1 / plan_.scale / plan_.step, spin = 1 / plan_.step;  // lattice units, m/s and 1/s
   const dem::Particles& particles = spheres_.particles();
   const std::vector<lattice::Impulse> impulse = flow_.impulses();
   std::vector<dem::Kick> kick(particles.owned);
@@ -233,7 +233,7 @@ core::Checkpoint FreeBox<Real>::state() const {
   return state;
 }
 
-/// The walls first: the flow that belongs to them follows, by KeptBox::restore().
+/// The walls first: KeptBox::restore() then restores their flow.
 template <class Real>
 void FreeBox<Real>::restore(const core::Checkpoint& state) {
   spheres_.resume(state);
@@ -260,7 +260,7 @@ BoxDrag run(const core::Scene& scene, const ResolvePoint& point, const SpherePac
             const StillWanted& wanted, const KeptBox* kept) {
   FreeBox<Real> box(scene, point, packing);
   std::int64_t done = 0;
-  double before = 0;  // s on the clock, of the runs before
+  double before = 0;  // s on the clock, in earlier runs
   if (const auto state = kept != nullptr ? kept->read() : std::nullopt) {
     core::name_checkpoint(kept->path, [&] {
       box.restore(*state);

@@ -1,5 +1,5 @@
 // A box of spheres that move freely through resolved flow, under drag, weight, contacts and films. Weight acts along
-// -x; the mean pressure gradient that bears it acts on liquid and spheres alike, so that nothing acts on the whole box.
+// -x; the mean pressure gradient that balances it acts on liquid and spheres alike: the total force on the box is zero.
 #pragma once
 
 #include <vector>
@@ -16,12 +16,11 @@ class FreeBox {
  public:
   FreeBox(const core::Scene& scene, const ResolvePoint& point, const SpherePacking& packing);
 
-  /// Two steps of the fluid, and what the spheres do meanwhile.
+  /// Two steps of the fluid, with the motion of the spheres.
   void step();
-  /// Walls are where the spheres are, and move as they do.
+  /// Sets the walls to the spheres' positions and motions.
   void let_walls_follow();
-  /// Levels the density and lists the neighbours anew, as a box that is taken up again does: both then have the same
-  /// bits.
+  /// Resets the mean density and rebuilds the list of neighbours, as a resumed box does: both then have the same bits.
   void begin_window();
   /// Adds the present velocities to the means.
   void sample();
@@ -29,7 +28,7 @@ class FreeBox {
   [[nodiscard]] BoxDrag means() const;
   void forget() { sums_ = Sums(sums_.of.size()); }
 
-  /// Along x, in units of the lattice: of liquid and spheres together; the sum of the amounts over the spheres.
+  /// Along x, in lattice units: of liquid and spheres together; the sum of the magnitudes over the spheres.
   struct Momentum {
     double all = 0, of_spheres = 0;
   };
@@ -42,9 +41,9 @@ class FreeBox {
   [[nodiscard]] dem::Model& spheres() { return spheres_; }
 
  private:
-  /// A sphere of a species, in units of the lattice.
+  /// A sphere of a species, in lattice units.
   struct Body {
-    double radius = 0, volume = 0, mass = 0, inertia = 0, weight = 0;  ///< weight less buoyancy in the liquid at rest
+    double radius = 0, volume = 0, mass = 0, inertia = 0, weight = 0;  ///< weight minus buoyancy in the liquid at rest
   };
   struct OfSpecies {
     double slip = 0, force = 0, along = 0, across = 0;
@@ -65,7 +64,7 @@ class FreeBox {
   std::vector<Body> bodies_;
   std::vector<double> count_;  ///< spheres of each species
   core::Timers timers_;
-  int substeps_;  ///< steps of the spheres in two of the fluid
+  int substeps_;  ///< steps of the spheres per two of the fluid
   dem::Model spheres_;
   lattice::Flow<Real> flow_;
   Sums sums_;

@@ -6,7 +6,7 @@ namespace polybed::multiscale {
 
 namespace {
 
-const std::string array = "populations";  // a part for each direction
+const std::string array = "populations";  // one part per direction
 
 core::Slab all_of(const lattice::Sites& sites) {
   const std::vector<std::size_t> box{std::size_t(sites.box[0]), std::size_t(sites.box[1]), std::size_t(sites.box[2])};
@@ -20,7 +20,7 @@ void KeptBox::write(const lattice::Flow<Real>& flow, core::Checkpoint state) con
   state.texts["box"] = name;
   const lattice::Point& force = flow.last_force();
   state.arrays["force"] = {force.begin(), force.end()};
-  std::vector<core::BlockData> populations;  // one after the other: no memory for the flow twice
+  std::vector<core::BlockData> populations;  // one after the other: memory may not suffice for the flow twice
   for (std::size_t way = 0; way < lattice::directions; ++way)
     populations.push_back({fmt::format("{}/{}", array, way),
                            all_of(flow.sites()),
@@ -52,7 +52,7 @@ void KeptBox::restore(lattice::Flow<Real>& flow, core::Checkpoint state) const {
 }
 
 void KeptBox::remove() const {
-  std::error_code none;  // a file that stays is of no harm
+  std::error_code none;  // a file that stays does no harm
   std::filesystem::remove(path, none);
   std::filesystem::remove(core::previous_checkpoint(path), none);
 }

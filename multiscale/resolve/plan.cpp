@@ -16,23 +16,23 @@ namespace polybed::multiscale {
 
 namespace {
 
-/// Mean velocity in the pores, cells per step: a Mach number of 0.05, so that the fluid stays nearly incompressible
-/// where it is faster.
+/// Mean velocity in the pores, cells per step: a Mach number of 0.05, so that the fluid remains nearly incompressible
+/// even where it is faster.
 constexpr double pore_speed = 0.03;
 /// The same for a sphere that falls alone: a Mach number of 0.09, half of that for hindered spheres.
 constexpr double fall_speed = 0.05;
-/// Of Stokes flow: the drag does not depend on it, and the greater it is the sooner the flow is steady.
+/// For Stokes flow: the drag does not depend on the viscosity, and a greater one makes the flow steady sooner.
 constexpr double stokes_viscosity = 0.5, stokes_speed = 1e-3;
-/// Windows that most boxes took: 9 to 15, and 8 to 28 of flows with inertia, up to a Reynolds number of 40.
+/// Windows of most boxes: 9 to 15, and 8 to 28 for flows with inertia, up to a Reynolds number of 40.
 constexpr double usual_stokes = 10, usual_inertia = 20;
-/// Most at a Reynolds number above 0.
+/// The limit at a Reynolds number above 0.
 constexpr double most_viscosity = 1.0 / 6;
-/// Boxes through which the fastest species falls while free spheres are simulated, hindered as voidage^3: the exponent
-/// of Richardson and Zaki is 2.4 to 4.65.
+/// Box lengths that the fastest species falls while free spheres are simulated, hindered as voidage^3: the exponent of
+/// Richardson and Zaki is 2.4 to 4.65.
 constexpr double crossings = 10, hindrance = 3;
-/// Steps of free spheres between two moments at which mass is levelled and a run may stop.
+/// Steps of free spheres between two resets of the mean density, at which a run can stop.
 constexpr double free_window = 200;
-/// Fewer have no sample after the first third.
+/// With fewer there is no sample after the first third.
 constexpr std::int64_t least_steps = 100;
 
 double sauter(const core::Scene& scene, const std::vector<double>& share) {
@@ -92,7 +92,7 @@ Units units_of_fall(const core::Scene& scene, double cells) {
   return {viscosity, viscosity * reynolds_of_cell};
 }
 
-/// The sooner the narrower the pores are. Fitted above all that failed of 200 boxes of 12 spheres,
+/// Needs a higher viscosity for narrower pores. Fitted above all failed cases in 200 boxes of 12 spheres,
 /// docs/record/resolved-flow.md.
 double least_viscosity(double pore_cells) {
   constexpr double of_wide = 0.004, wide = 6, power = 8;
@@ -109,7 +109,7 @@ BoxPlan plan_of(const core::Scene& scene, const ResolvePoint& point) {
   plan.units = free ? units_of_fall(scene, least_diameter(scene) * plan.scale)
                     : units_of(point.voidage, point.reynolds, plan.sauter);
   const double pore = std::min(1.0, pore_of(point.voidage)) * plan.sauter;
-  // By friction a pore forgets its past, or by the fluid that passes two diameters, whichever is sooner.
+  // A pore loses its memory by friction, or by flow over two diameters, whichever is sooner.
   plan.window = std::max(100.0, pore * pore / (3 * plan.units.viscosity));
   if (point.reynolds > 0)
     plan.window = std::max(100.0, std::min(plan.window, 2 * plan.sauter * point.voidage / plan.units.speed));
@@ -125,9 +125,9 @@ BoxPlan plan_of(const core::Scene& scene, const ResolvePoint& point) {
 }
 
 BoxNeed box_need(const core::Scene& scene, const ResolvePoint& point) {
-  // Links of a lattice of 18 ways to a plane, mean over its directions: a quarter of the sum of their lengths.
+  // Links of a lattice with 18 ways through a plane, mean over its directions: a quarter of the sum of their lengths.
   constexpr double links_of_area = (6 + 12 * std::numbers::sqrt2) / 4;
-  constexpr double site_bytes = 4, link_bytes = 52, moving_bytes = 16;  // whose a site is; a link, and how it was found
+  constexpr double site_bytes = 4, link_bytes = 52, moving_bytes = 16;  // owner of a site; a link and its list entry
   const BoxPlan box = plan_of(scene, point);
   const double real = scene.resolve.precision == core::Precision::one ? sizeof(float) : sizeof(double);
   BoxNeed need;

@@ -24,13 +24,13 @@ using core::SphereMotion;
 
 std::string cell(double value) { return std::isnan(value) ? "" : fmt::format("{:.6g}", value); }
 
-/// What a box says of each species.
+/// Columns of a box for each species.
 std::vector<std::vector<double> BoxDrag::*> columns_of(SphereMotion motion) {
   if (motion != SphereMotion::free) return {&BoxDrag::net, &BoxDrag::pure};
   return {&BoxDrag::net, &BoxDrag::pure, &BoxDrag::slip, &BoxDrag::along, &BoxDrag::across};
 }
 
-/// Sum over the species that are passed.
+/// Sum over the passed species.
 RowValue value_of(const RowBoxes& boxes, std::vector<double> BoxDrag::*column, std::size_t species) {
   return row_value(boxes, [&](const std::vector<BoxDrag>& parts) {
     double sum = 0;
@@ -51,7 +51,7 @@ double reynolds_of_slip(const core::Scene& scene, const std::vector<double>& sha
   return fluid.density * slip * closures::sauter_diameter(share, diameter) / fluid.viscosity;
 }
 
-/// With a cell and the slip of the fastest species in the pores: how well the flow past it is resolved.
+/// With a cell and the slip of the fastest species in the pores: a measure of the resolution of the flow past it.
 double reynolds_of_cell(const core::Scene& scene, double voidage, const RowBoxes& boxes) {
   const relevance::FluidConstants fluid = relevance::fluid_constants(scene.fluid);
   double slip = 0;
@@ -59,8 +59,7 @@ double reynolds_of_cell(const core::Scene& scene, double voidage, const RowBoxes
   return fluid.density * slip / voidage * least_diameter(scene) / boxes[0][0][0].cells / fluid.viscosity;
 }
 
-/// What the motion of free spheres depends on beside what that of the flow does: the case without the boxes that it
-/// asks for.
+/// Inputs of the motion of free spheres besides those of the flow: the case without its list of boxes.
 std::string free_text(core::Scene scene) {
   const std::optional<double> until = scene.resolve.until;
   scene.resolve = {};

@@ -9,34 +9,33 @@
 
 namespace polybed::multiscale {
 
-/// A value over the packings on the finest grid. Not extrapolated: the error of these walls changes its sign
-/// before it falls with the square of the cells, and the extrapolated value was farther from the limit (record of
-/// resolved flow).
+/// A value over the packings on the finest grid. Not extrapolated: the error of these walls changes its sign before it
+/// falls with the square of the cells, and the extrapolated value was farther from the limit (record of resolved flow).
 struct RowValue {
   double mean = 0;
-  double error = 0;  ///< standard error over the packings; NaN of one packing
-  double grid = 0;   ///< less the next coarser grid; NaN of one grid
+  double error = 0;  ///< standard error over the packings; NaN for one packing
+  double grid = 0;   ///< minus the next coarser grid's; NaN for one grid
 };
 
-/// Boxes of a row: [packing][grid][species that is passed, or one].
+/// Boxes of a row: [packing][grid][passed species, or one].
 using RowBoxes = std::vector<std::vector<std::vector<BoxDrag>>>;
 
-/// \param value  of the boxes of one packing on one grid
+/// \param value  for the boxes of one packing on one grid
 [[nodiscard]] RowValue row_value(const RowBoxes& boxes,
                                  const std::function<double(const std::vector<BoxDrag>&)>& value);
 
-/// Header and row: eps,Re,x1,D1,... as polybed drag reads them, D in m; then of each species n_j,n_j_se,f_j, and of
-/// moving spheres f_j_k,f_j_k_se by the relative motion of species k, which f_j is the sum of; of free spheres
-/// u_j,u_j_se,f_j,v_j,w_j. Then packings,resolution,spheres,imbalance, of free spheres cell_Re, and n_j_grid or
-/// u_j_grid. What is not known is left empty.
+/// Header and row: eps,Re,x1,D1,... as polybed drag reads them, D in m; then for each species n_j,n_j_se,f_j; for
+/// moving spheres f_j_k,f_j_k_se from the relative motion of species k, whose sum is f_j; for free spheres
+/// u_j,u_j_se,f_j,v_j,w_j. Then packings,resolution,spheres,imbalance, for free spheres cell_Re, and n_j_grid or
+/// u_j_grid. Unknown values are empty.
 [[nodiscard]] std::string row_header(const core::Scene& scene);
 [[nodiscard]] std::string row_text(const core::Scene& scene, double voidage, double reynolds, const RowBoxes& boxes);
 
-/// A box as a line of text, and back; one that is none, or has a number that is not finite, gives nothing.
+/// A box as a line of text, and back; nothing for an invalid line or a number that is not finite.
 [[nodiscard]] std::string box_text(const BoxDrag& box);
 [[nodiscard]] BoxDrag box_of_text(const std::string& text, const core::Scene& scene);
 
-/// A name that changes with everything that a box's result depends on.
+/// A name that changes with every input of a box's result.
 [[nodiscard]] std::string box_name(const core::Scene& scene, const ResolvePoint& point);
 
 }  // namespace polybed::multiscale

@@ -18,12 +18,12 @@ namespace {
 
 using core::Broken;
 
-/// Cells that a pore needs at least: chosen, not measured.
+/// Least cells per pore: chosen, not measured.
 constexpr double least_pore = 3;
 /// Density of free spheres over that of the fluid: forces of the fluid act on them one step late.
 constexpr double least_ratio = 1.1;
-/// Width of a box of free spheres over the largest diameter: no sphere or film touches another and its image. A film
-/// reaches as far as it is not resolved on the coarsest grid.
+/// Width of a box of free spheres over the largest diameter: no sphere or film touches another and its image. The range
+/// of a film is the unresolved gap on the coarsest grid.
 double least_width(const core::Scene& scene) {
   const double cells =
       cells_of(scene.resolve, scene.resolve.grids - 1) * core::largest_diameter(scene) / least_diameter(scene);
@@ -102,7 +102,7 @@ Broken end_of_no_use(const core::Scene& scene) {
   return Broken({std::string(core::name_of(scene.resolve.motion))});
 }
 
-/// A law for what the grid resolves here; one that is chosen is left out.
+/// A law for films that the grid resolves; one that was chosen automatically is dropped instead.
 Broken film_counted_twice(const core::Scene& scene) {
   using namespace relevance::effects;
   const auto& chosen = scene.chooser.chosen;
@@ -118,7 +118,7 @@ Broken nothing_to_fall_in(const core::Scene& scene) {
   return scene.column.gravity > 0 ? Broken() : Broken({"column.gravity above 0"});
 }
 
-/// Whether there are free spheres in a fluid that is known: where it is not, another rule says so.
+/// Whether there are free spheres in a known fluid; another rule reports an unknown one.
 bool fall(const core::Scene& scene) {
   if (!are_free(scene) || nothing_to_fall_in(scene) || !asks(scene)) return false;
   try {

@@ -1,4 +1,4 @@
-// What the keys of [resolve] require of each other.
+// Requirements between the keys of [resolve].
 #pragma once
 
 #include <vector>
@@ -7,8 +7,8 @@
 
 namespace polybed::multiscale {
 
-/// Grids that resolve the pores and the Reynolds number, spheres of every species, and what moving and free spheres
-/// need.
+/// Grids that resolve the pores and the Reynolds number, spheres of every species, and requirements of moving and free
+/// spheres.
 [[nodiscard]] std::vector<core::Rule> resolve_rules();
 
 }  // namespace polybed::multiscale

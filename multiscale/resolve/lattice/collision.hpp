@@ -1,4 +1,4 @@
-// The collision of two relaxation times with a body force, on a row of sites.
+// The two-relaxation-time collision with a body force, on a row of sites.
 #pragma once
 
 #include <array>
@@ -16,21 +16,21 @@ struct Relaxation {
   std::array<Real, 3> force{};  ///< per site
 };
 
-/// Rate of the odd part for which the wall of half-way bounce-back lies half-way: (1/even - 1/2)(1/odd - 1/2) = 3/16
+/// Rate of the odd part that puts the wall of half-way bounce-back exactly half-way: (1/even - 1/2)(1/odd - 1/2) = 3/16
 /// (Ginzburg and d'Humieres, Phys. Rev. E 68 (2003) 066614).
 [[nodiscard]] constexpr double odd_rate(double even) { return 1 / (0.5 + 3.0 / 16 / (1 / even - 0.5)); }
 
-/// Collides the sites at place[i][z], z < length: the population that arrives along i is read there, the one that
-/// leaves against i is written there. Populations are less their values at rest, so that single precision keeps its
-/// digits and forces are free of the rest pressure. Equilibrium of an incompressible fluid (He and Luo, J. Stat. Phys.
-/// 88 (1997) 927); `inertia` adds its terms in the square of the velocity, and those of the force by Guo et al. (Phys.
-/// Rev. E 65 (2002) 046308).
+/// Collides the sites at place[i][z], z < length: the arriving population along i is read there, the departing one
+/// against i is written there. Populations are relative to their values at rest, so that single precision keeps its
+/// digits and forces exclude the rest pressure. Equilibrium of an incompressible fluid (He and Luo, J. Stat. Phys. 88
+/// (1997) 927); `inertia` adds its terms in the square of the velocity, and the force's after Guo et al. (Phys. Rev. E
+/// 65 (2002) 046308).
 template <class Real, bool inertia>
 inline void collide_row(Real* const* place, std::size_t length, const Relaxation<Real>& r) {
   const Real fx = r.force[0], fy = r.force[1], fz = r.force[2];
   const Real even = r.even, odd = r.odd, push = Real(3) * (1 - odd / 2), stir = 1 - even / 2;
   Real* const p0 = place[0];
-  // A pointer per direction as a local of its own: the loop below is one vector loop.
+  // One local pointer per direction, so that the loop below is one vector loop.
   Real *const p1 = place[1], *const p2 = place[2], *const p3 = place[3], *const p4 = place[4], *const p5 = place[5],
               *const p6 = place[6], *const p7 = place[7], *const p8 = place[8], *const p9 = place[9],
               *const p10 = place[10], *const p11 = place[11], *const p12 = place[12], *const p13 = place[13],

@@ -11,12 +11,12 @@ namespace polybed::multiscale::lattice {
 
 namespace {
 
-/// Covered sites between two of fluid in a row up to which a run goes on: cheaper than a run more.
+/// Covered sites between two fluid sites in a row that a run still includes: cheaper than another run.
 constexpr int bridge = 12;
 
 Sites sites_of(const std::array<int, 3>& box) { return {box, std::size_t(box[2] + 2)}; }
 
-/// Distance of two directions in memory. Nineteen streams at the same place of a page would share one set of the cache.
+/// Distance of two directions in memory. Nineteen streams at the same page offset would share one set of the cache.
 template <class Real>
 std::size_t stride_of(const Sites& sites) {
   constexpr std::size_t page = 4096 / sizeof(Real), line = 64 / sizeof(Real);
@@ -28,12 +28,12 @@ void collide(std::array<Real*, directions> place, std::size_t length, const Rela
   collide_row<Real, inertia>(place.data(), length, relaxation);
 }
 
-/// Sends back what departs along links, and returns the impulse. No link reads what another writes.
-/// \param last  of all links: those to come have their four places fetched, which lie apart
+/// Bounces departing populations back along links, and returns the impulse. No link reads another's output.
+/// \param last  end of all links: the four places of later links, which are scattered, are prefetched
 template <bool second, class Link, class Real>
 double bounced(Real* f, const Link* links, std::size_t count, const Link* last) {
   constexpr std::ptrdiff_t ahead = 12;
-  double sum[2] = {0, 0};  // two, as each addition waits for the one before
+  double sum[2] = {0, 0};  // two, as each addition waits for the previous one
 #pragma GCC ivdep
   for (std::size_t n = 0; n < count; ++n) {
     const Link& link = links[n];
@@ -73,7 +73,7 @@ void Flow<Real>::find_runs() {
     Span& runs = layers_[std::size_t(i - 1)].runs;
     runs.begin = runs_.size();
     for (int j = 1; j <= sites_.box[1]; ++j) {
-      int last = -bridge - 2;  // site of fluid before this one
+      int last = -bridge - 2;  // previous fluid site
       for (int k = 1; k <= sites_.box[2]; ++k) {
         if (owner_[sites_.at(i, j, k)] != Obstacles::none) continue;
         ++fluid_sites_;
@@ -91,7 +91,7 @@ void Flow<Real>::find_runs() {
 template <class Real>
 void Flow<Real>::find_links(const Obstacles& obstacles) {
   struct Found {
-    int layer;  // from 0; behind all, the rim
+    int layer;  // from 0; the rim comes after all layers
     std::int32_t owner, way;
     std::array<int, 3> at;
   };
@@ -100,9 +100,9 @@ void Flow<Real>::find_links(const Obstacles& obstacles) {
       if (ways[way][k] != 0 && (at[k] == 1 || at[k] == sites_.box[k])) return sites_.box[0];
     return at[0] - 1;
   };
-  // From the covered sites, which are fewer than those of the fluid.
+  // From the covered sites, which are fewer than the fluid's.
   std::vector<Found> found;
-  std::vector<std::uint64_t> order;  // by bundle, then as found
+  std::vector<std::uint64_t> order;  // by bundle, then in the order found
   for (int i = 0; i < sites_.box[0] + 2; ++i)
     for (int j = 0; j < sites_.box[1] + 2; ++j)
       for (int k = 0; k < sites_.box[2] + 2; ++k) {
@@ -140,7 +140,7 @@ auto Flow<Real>::link_of(const Obstacles& obstacles, const std::array<int, 3>& a
   const std::size_t covered = site + step, back = site - step, here = place(way, site);
   Link link{std::uint32_t(place(opposite(way), site)), std::uint32_t(place(way, covered)), std::uint32_t(here),
             std::uint32_t(here), 0};
-  // Between two walls, a site apart, both equations together give the plain bounce.
+  // Between two walls one site apart, both equations together give the plain bounce.
   if (setup_.wall == Wall::half_way || owner_[back] != Obstacles::none) return link;
   const Point fluid{double(at[0] - 1), double(at[1] - 1), double(at[2] - 1)};
   const double q = obstacles.fraction(owner_[covered], fluid, ways[way]);
@@ -169,8 +169,8 @@ void Flow<Real>::collide(bool second, const Span& runs) {
   }
 }
 
-/// Links of a layer follow as soon as the layer behind it is done, while both are in the cache: they reach one layer
-/// far, and a covered site, which is collided with its run, must not disturb what they leave there.
+/// Processes a layer's links as soon as the next layer is done, while both are in the cache: links reach one layer far,
+/// and the collision of a covered site in a run must not overwrite their results.
 template <class Real>
 void Flow<Real>::collide_and_bounce(bool second) {
   for (std::size_t n = 0; n < layers_.size(); ++n) {
@@ -233,7 +233,7 @@ Point Flow<Real>::force() const {
   return {on_all_[0] / 2, on_all_[1] / 2, on_all_[2] / 2};
 }
 
-/// Between two steps, without the half of the force that the velocity has.
+/// Between two steps, without the velocity's half force.
 template <class Real>
 Point Flow<Real>::momentum_at(std::size_t site) const {
   Point sum{};

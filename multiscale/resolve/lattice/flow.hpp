@@ -1,8 +1,8 @@
-// A fluid of density 1 that flows through a periodic box of obstacles; lengths in cells, time in steps.
+// Flow of a fluid of density 1 through a periodic box of obstacles; lengths in cells, time in steps.
 //
-// One array of populations serves two steps (Bailey et al., ICPP 2009): the first collides each site in its own place
-// and leaves what departs along i in the place of the opposite direction; the second reads from the neighbours, and
-// writes to them. A covered site passes on what departs towards it, from `links`.
+// One array of populations serves two steps (Bailey et al., ICPP 2009): the first collides each site in place and
+// stores the departing population along i at the opposite direction; the second reads from the neighbours and writes to
+// them. A covered site returns populations that depart towards it, by `links`.
 #pragma once
 
 #include <array>
@@ -17,11 +17,11 @@ namespace polybed::multiscale::lattice {
 
 enum class Wall {
   half_way,     ///< bounce-back: momentum and mass exact
-  interpolated  ///< central and linear, by where the surface cuts the link (CLI of Ginzburg et al., Commun. Comput.
-                ///< Phys. 3 (2008) 427): in a steady state independent of the viscosity, as half_way is
+  interpolated  ///< central and linear, from the surface's position on the link (CLI of Ginzburg et al., Commun.
+                ///< Comput. Phys. 3 (2008) 427): independent of the viscosity in a steady state, like half_way
 };
 
-/// Of an obstacle that moves, as a rigid body.
+/// Rigid-body motion of an obstacle.
 struct Motion {
   Point centre{}, velocity{}, spin{};
 };
@@ -44,24 +44,24 @@ class Flow {
   /// A fluid at rest. Throws core::CaseError if the box is too large.
   Flow(const FlowSetup& setup, const Obstacles& obstacles);
 
-  /// The fluid moves as a whole: the start of a flow whose walls move with it, or with most of it.
+  /// Sets a uniform velocity: the start of a flow whose walls, or most of them, move with it.
   void set_velocity(const Point& velocity);
-  /// Two steps under a force on each site of the fluid.
+  /// Two steps with a force on each site of the fluid.
   void advance(const Point& force);
 
-  /// Force on each obstacle, mean since forget_forces(), without what the pressure that drives the flow adds.
+  /// Mean force on each obstacle since forget_forces(), without the effect of the driving pressure.
   [[nodiscard]] std::vector<Point> forces() const;
   void forget_forces();
-  /// Since forget_forces(), where obstacles move.
+  /// Since forget_forces(), for moving obstacles.
   [[nodiscard]] std::vector<Impulse> impulses() const;
   void restore_impulses(const std::vector<Impulse>& impulses);
 
-  /// Walls move from now on, each with its obstacle, while their places stay: enough for Stokes flow.
+  /// Lets each wall move with its obstacle from now on, at fixed positions: sufficient for Stokes flow.
   void set_motion(const std::vector<Motion>& motion);
-  /// The obstacles have moved, by less than a cell: walls are found anew. What the fluid loses by a site that is
-  /// covered, and gains by one that is uncovered, is an impulse on the obstacle: with it momentum is exact.
+  /// Moves the obstacles by less than a cell and rebuilds the walls. Momentum that the fluid loses at newly covered
+  /// sites and gains at uncovered ones is an impulse on the obstacle: total momentum is then exact.
   void move_to(const Obstacles& obstacles, const std::vector<Motion>& motion);
-  /// Sum over all obstacles, mean of the last two steps.
+  /// Sum over all obstacles, mean over the last two steps.
   [[nodiscard]] Point force() const;
   /// Mean velocity over the whole box, obstacles counted with 0: the superficial velocity.
   [[nodiscard]] Point velocity() const;
@@ -69,25 +69,25 @@ class Flow {
   /// Subtracts the mean density: interpolated walls do not conserve mass to round-off.
   void level_density();
 
-  /// Populations along one direction at the sites of the box, in C order. Those of all directions and the force of
-  /// the last steps are the flow, to the bit.
+  /// Populations along one direction at the sites of the box, in C order. The flow consists of those for all directions
+  /// and the force in the last steps, to the bit.
   [[nodiscard]] std::vector<double> populations(std::size_t way) const;
   [[nodiscard]] const Point& last_force() const { return force_; }
   void restore_populations(std::size_t way, const std::vector<double>& populations);
   void restore_last_force(const Point& force) { force_ = force; }
 
   [[nodiscard]] const Sites& sites() const { return sites_; }
-  /// Sites of fluid in the box; links that are cut.
+  /// Fluid sites in the box; links cut by surfaces.
   [[nodiscard]] double fluid_sites() const { return fluid_sites_; }
   [[nodiscard]] std::size_t links() const { return links_.size(); }
   [[nodiscard]] std::size_t memory_bytes() const;
 
  private:
-  /// Places in the array of populations, and what of each bounces.
+  /// Indices in the array of populations, and the bounced part.
   struct Link {
-    std::uint32_t fluid, covered;  ///< where what departs to the obstacle stands after the first step; after the second
-    std::uint32_t here, behind;    ///< between what it is interpolated
-    Real part;                     ///< of their difference
+    std::uint32_t fluid, covered;  ///< departing population towards the obstacle after the first step; after the second
+    std::uint32_t here, behind;    ///< ends of the interpolation
+    Real part;                     ///< share of their difference
   };
   /// Links of one obstacle along one way, one after the other: their impulses have one direction and one sum.
   struct Bundle {
@@ -97,7 +97,7 @@ class Flow {
   struct Span {
     std::size_t begin = 0, end = 0;
   };
-  /// Of the sites at one x: runs, and bundles of links that stay clear of the layer round the box.
+  /// For the sites at one x: runs, and bundles of links that stay clear of the layer around the box.
   struct Layer {
     Span runs, bundles;
   };
@@ -105,9 +105,9 @@ class Flow {
     std::uint32_t begin, length;
   };
 
-  /// Of a link to a wall that moves.
+  /// Data for a link to a moving wall.
   struct MovingLink {
-    Real sent;                   ///< what the motion adds to what comes back
+    Real sent;                   ///< part of the returning population from the motion
     std::array<Real, 3> torque;  ///< per impulse
   };
 
@@ -134,12 +134,12 @@ class Flow {
   std::vector<Bundle> bundles_;
   std::vector<Layer> layers_;             ///< by x, from 0
   Span rim_;                              ///< the other bundles
-  std::vector<MovingLink> moving_links_;  ///< of each link; empty where obstacles are at rest
-  std::vector<Point> on_obstacle_;        ///< sums over the steps taken since
-  std::vector<Point> torque_;             ///< likewise; empty where obstacles are at rest
+  std::vector<MovingLink> moving_links_;  ///< for each link; empty for obstacles at rest
+  std::vector<Point> on_obstacle_;        ///< sums over the steps since then
+  std::vector<Point> torque_;             ///< likewise; empty for obstacles at rest
   std::int64_t steps_ = 0;
-  Point on_all_{};  ///< of the last two steps
-  Point force_{};   ///< of the last steps, on a site
+  Point on_all_{};  ///< over the last two steps
+  Point force_{};   ///< in the last steps, per site
   Halo<Real> halo_;
 };
 

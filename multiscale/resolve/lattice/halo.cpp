@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t crossing = 5;  ///< directions through a face
 
-/// Those that leave through the lower (-1) or the upper (1) face along an axis.
+/// Directions that leave through the lower (-1) or the upper (1) face along an axis.
 constexpr std::array<std::size_t, crossing> leaving(std::size_t axis, int side) {
   std::array<std::size_t, crossing> found{};
   std::size_t n = 0;
@@ -62,7 +62,7 @@ void Halo<Real>::along_z(Real* f, Way way) const {
   }
 }
 
-// An edge is passed on by the first axis to the layer of the second: all axes take whole layers.
+// The first axis passes an edge on to the second axis' layer: all axes copy whole layers.
 template <class Real>
 void Halo<Real>::fill(Real* populations) const {
   along_z(populations, Way::fill);

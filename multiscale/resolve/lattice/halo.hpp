@@ -1,4 +1,4 @@
-// The layer of sites round a box: what it needs from the other side, and gives back.
+// The layer of sites around a box: copies from the other side, and returns to it.
 #pragma once
 
 #include <cstddef>
@@ -13,10 +13,9 @@ class Halo {
   /// \param stride  between the populations of two directions
   Halo(const Sites& sites, std::size_t stride) : sites_(sites), stride_(stride) {}
 
-  /// Between the two steps: sets the layer to the sites that it stands for, of the directions that leave the box
-  /// there.
+  /// Between the two steps: copies the represented sites into the layer, for the directions that leave the box there.
   void fill(Real* populations) const;
-  /// After the second: takes what has been written to the layer over to those sites.
+  /// After the second step: moves the populations written in the layer to those sites.
   void fold(Real* populations) const;
 
  private:

@@ -1,4 +1,4 @@
-// Obstacles that move through the fluid: walls with a velocity, sites that are covered and uncovered.
+// Obstacles that move through the fluid: walls with a velocity, sites that become covered and uncovered.
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -28,7 +28,7 @@ Point velocity_of(const Motion& motion, const Point& arm) {
   return u;
 }
 
-/// Equilibrium at a velocity and the density at rest, as collide_row has it.
+/// Equilibrium at a velocity and the density at rest, as in collide_row.
 double equilibrium(std::size_t way, const Point& u, bool inertia) {
   const double c = dot(along(way), u);
   return weight(way) * (3 * c + (inertia ? 4.5 * c * c - 1.5 * dot(u, u) : 0.0));
@@ -42,8 +42,8 @@ void Flow<Real>::set_velocity(const Point& velocity) {
     std::fill_n(&populations_[place(way, 0)], sites_.count(), Real(equilibrium(way, velocity, setup_.inertia)));
 }
 
-/// What comes back from a wall with the velocity u is less by 2 w c.u/c_s^2 half-way (Ladd, J. Fluid Mech. 271 (1994)
-/// 285), and by 4/(1 + 2q) w c.u/c_s^2 interpolated (Ginzburg et al. 2008): 6 (1 + part) w c.u by the link's `part`.
+/// A wall with velocity u lowers the returning population by 2 w c.u/c_s^2 half-way (Ladd, J. Fluid Mech. 271 (1994)
+/// 285), and by 4/(1 + 2q) w c.u/c_s^2 interpolated (Ginzburg et al. 2008): 6 (1 + part) w c.u with the link's `part`.
 template <class Real>
 void Flow<Real>::set_motion(const std::vector<Motion>& motion) {
   torque_.resize(motion.size());
@@ -64,7 +64,7 @@ void Flow<Real>::set_motion(const std::vector<Motion>& motion) {
   }
 }
 
-/// After the bounce, which leaves what has departed along a link where it stood.
+/// After the bounce, which leaves the departed population of a link in place.
 template <class Real>
 void Flow<Real>::push_walls(bool second) {
   Real* const f = populations_.data();
@@ -109,8 +109,8 @@ void Flow<Real>::cover(std::size_t site, std::int32_t by, const Motion& motion) 
   add(cross(sites_.from(motion.centre, site), given), 1, torque_[std::size_t(by)]);
 }
 
-/// Equilibrium at the velocity of the wall, and density and departure from equilibrium of the neighbour farthest
-/// outwards that was fluid and is: at rest where there is none.
+/// Equilibrium at the velocity of the wall, with density and non-equilibrium part from the outermost neighbour that was
+/// and is fluid: at rest if there is none.
 template <class Real>
 void Flow<Real>::uncover(std::size_t site, std::int32_t by, const Motion& motion,
                          const std::vector<std::int32_t>& before) {

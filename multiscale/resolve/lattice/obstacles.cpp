@@ -10,7 +10,7 @@ std::vector<std::int32_t> Spheres::owners(const Sites& sites) const {
   std::vector<float> depth(sites.count(), 0);
   for (std::size_t n = 0; n < spheres_.size(); ++n) {
     const Sphere& s = spheres_[n];
-    // Indices in the array at which an image of the sphere may lie, and their distances from its centre.
+    // Indices in the array for images of the sphere, and their distances from its centre.
     std::array<std::vector<std::pair<int, double>>, 3> near;
     for (std::size_t k = 0; k < 3; ++k)
       for (int i = 0; i < sites.box[k] + 2; ++i) {
@@ -35,7 +35,7 @@ double Spheres::fraction(std::int32_t owner, const Point& fluid, const std::arra
   const Sphere& s = spheres_[std::size_t(owner)];
   double length = 0, along = 0, distance = 0;
   for (std::size_t k = 0; k < 3; ++k) {
-    double d = fluid[k] + way[k] - s.centre[k];  // of the covered site, whose nearest image it is
+    double d = fluid[k] + way[k] - s.centre[k];  // from the covered site, to its nearest image
     d -= box_[k] * std::round(d / box_[k]);
     d -= way[k];
     length += way[k] * way[k];

@@ -11,8 +11,8 @@ namespace polybed::multiscale::lattice {
 
 namespace {
 
-/// Steps in which the force makes up for a departure from the mean velocity: several of those that a sound wave needs
-/// to cross a few cells, and short against the windows.
+/// Steps in which the force corrects a deviation from the mean velocity: several times a sound wave's time across a few
+/// cells, and short compared with the windows.
 constexpr double response = 50;
 
 double length_of(const Point& p) { return std::hypot(p[0], p[1], p[2]); }
@@ -34,7 +34,7 @@ SteadyFlow run_until_steady(Flow<Real>& flow, const SteadyPlan& plan, const Afte
     double momentum = along_flow(flow.velocity()) * sites, mean_push = 0, mean_drag = 0;
     flow.forget_forces();
     for (std::int64_t n = 0; n < half_window; ++n) {
-      // The momentum of the fluid follows from the forces, measured only once in a window.
+      // The momentum of the fluid follows from the forces, measured only once per window.
       const double push = (drag + (speed * sites - momentum) / response) / fluid;
       flow.advance({push * along[0], push * along[1], push * along[2]});
       drag = along_flow(flow.force());
