@@ -1,5 +1,5 @@
-// polybed calibrate: hands over to the Python package, which starts this program again, on the ranks if there are any,
-// and asks it which boxes a case has, what they measure, and how a table reads.
+// polybed calibrate: becomes the Python package, which starts this program again, on the ranks if there are any, and
+// queries it for a case's boxes, their measurements, and the shape of a table.
 #include <fmt/format.h>
 #include <sys/prctl.h>
 #include <unistd.h>
@@ -42,7 +42,7 @@ namespace {
 
 using Texts = std::vector<std::string>;
 
-/// Particle-steps per second of sheared boxes, looked at every fourth step, on the development machine.
+/// Particle-steps per second of sheared boxes, sampled at every fourth step, on the development machine.
 constexpr double particle_steps_per_second = 1.5e7;
 
 BoxPoint point_of(const std::string& text) {
@@ -63,7 +63,7 @@ class Service {
   Service(std::shared_ptr<const core::Ranks> ranks, std::function<void()> show)
       : ranks_(std::move(ranks)), show_(std::move(show)) {}
 
-  /// \param words  the question and what it is about
+  /// \param words  the question and its arguments
   std::string answer(const Texts& words) {
     using Answer = core::Json (Service::*)(const Texts&);
     static const std::map<std::string, Answer> answers{{"case", &Service::read_case},   {"take", &Service::take},
@@ -130,8 +130,8 @@ class Service {
     return boxes;
   }
 
-  /// A fluidised box is shared by all ranks; of sheared boxes, which one rank runs, the next one goes to the rank that
-  /// has least to do.
+  /// All ranks share a fluidised box. A sheared box runs on one rank; the next one goes to the rank with the least
+  /// work.
   core::Json run(const Texts& words) {
     std::vector<double> load(std::size_t(ranks_ ? ranks_->count() : 1), 0.0);
     std::vector<std::int64_t> failed(words.size() / 2, 0);
@@ -195,7 +195,7 @@ class Service {
   }
 
   std::shared_ptr<const core::Ranks> ranks_;
-  std::function<void()> show_;  ///< that the first rank has finished a box
+  std::function<void()> show_;  ///< reports that the first rank has finished a box
   core::Scene scene_;
   std::optional<core::OutputDirectory> taken_;  ///< by the first rank
 };
@@ -209,15 +209,15 @@ Texts words_of(const std::string& line) {
 
 /// Answers questions until there are no more: each is a line with a JSON array of texts, each answer a line of JSON.
 ///   case PATH SETTING...      reads the case: the plan, {"regime", "axes", "seeds", ...}; the first question
-///   take DIRECTORY            takes the directory as long as this runs; null
-///   boxes POINT...            of each its hash and the seconds expected on one core, [[hash, s], ...]
+///   take DIRECTORY            locks the directory as long as this runs; null
+///   boxes POINT...            hash and expected seconds on one core of each, [[hash, s], ...]
 ///   run FILE POINT ...        runs boxes on the ranks, in this order: null each time the first rank has finished
-///                             one of its own, and at the end the places of those that failed, [0, 3]
-///   table PATH                how a table of sheared boxes runs, {"falls", "falls_in_shear_up_to", "a"}
+///                             one of its own, and at the end the indices of failed boxes, [0, 3]
+///   table PATH                shape of a table of sheared boxes, {"falls", "falls_in_shear_up_to", "a"}
 ///   bed PATH                  null for a table of fluidised boxes
-///   ratios PATH POINT...      of each [p, p one standard error up, mu, mu likewise] that a run reads from a table
+///   ratios PATH POINT...      [p, p plus one standard error, mu, mu likewise] of each, as a run reads a table
 /// A point is "regime phi stokes restitution friction share binary pushed seed". Collective; the first rank reads and
-/// writes. Throws what the question meets.
+/// writes. Throws the errors from a question.
 void answer_calibration() {
   const std::shared_ptr<const core::Ranks> ranks = core::started_by_launcher() ? core::Ranks::of_program() : nullptr;
   const auto show = [](const std::string& text) {
@@ -256,7 +256,7 @@ core::ExitCode run_calibrate(const std::vector<std::string>& words) {
     return core::ExitCode::done;
   }
   if (!is_box(words)) become_python("polybed.calibration", words);
-  ::prctl(PR_SET_PDEATHSIG, SIGKILL);  // no box outlives the command that has asked for it
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);  // a box ends with the command that started it
   if (std::to_string(::getppid()) != words[1]) return core::ExitCode::stopped;
   run_box_into(words[2], words[3], {words.begin() + 5, words.end()}, words[4]);
   return core::ExitCode::done;

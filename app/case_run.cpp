@@ -22,7 +22,7 @@
 namespace polybed::app {
 
 namespace {
-constexpr const char* past_name = "past";  // text of a checkpoint
+constexpr const char* past_name = "past";  // name of a text in the checkpoint
 }
 
 CaseRun::CaseRun(const RunOptions& options, core::Scene scene, std::filesystem::path directory,
@@ -56,7 +56,7 @@ void CaseRun::prepare(const std::function<void(core::Checkpoint&, const std::fil
     core::name_checkpoint(path, [&] { start_from(checkpoint, path); });
   }
   begin_ = simulation().time();
-  // A run that begins anew and is killed at once must not be resumed from the run that it replaces.
+  // A new run that is killed at once must not be resumed from the run that it replaces.
   if (!options_.resume) core::on_first(ranks_.get(), [&] { core::remove_results(directory_); });
 }
 
@@ -71,7 +71,7 @@ void CaseRun::recall(const std::function<void(const core::Json&)>& take) const {
   });
 }
 
-/// Of what this process has simulated, or, while it runs, will.
+/// The band for the part simulated by this process or, while it runs, for the part until `end`.
 TimeBand CaseRun::prediction_of(double end) const {
   const double share = scene_.run.until > 0 ? std::max((end - begin_) / scene_.run.until, 0.0) : 1;
   return prediction_.part(share, !options_.resume);
@@ -129,9 +129,9 @@ void CaseRun::run_to_end() {
 }
 
 void CaseRun::go() {
-  // The run before has ended so.
+  // The earlier run ended this way.
   if (is_over()) return;
-  constexpr double longest = 20;  // times run.until
+  constexpr double longest = 20;  // in units of run.until
   const double until = options_.until_steady() ? longest * scene_.run.until : scene_.run.until;
   core::Progress progress(options_.quiet, simulation().time(), until);
   core::Stops stops{until, *scene_.output.checkpoint_every, breakpoints()};
@@ -143,7 +143,7 @@ void CaseRun::go() {
       simulation(), stops, observers(), !options_.resume, [&](double) { write_checkpoint(); },
       [&] {
         if (broken_law_) throw core::ConservationError(*broken_law_);
-        // As many steps as `polybed check` times; on ranks each knows what it does itself alone.
+        // Times steps for as long as `polybed check` does; with ranks each process has only its own CPU time.
         ++steps;
         if (!refined_ && ranks_ == nullptr && core::cpu_seconds() - begin > sample_seconds) {
           refined_ = true;
@@ -155,7 +155,7 @@ void CaseRun::go() {
       [this] { return stop_wanted(); });
 }
 
-/// Two checks in a row must find the bed steady: one of many checks of a drifting bed may do so by chance. Collective.
+/// Two checks in a row must find the bed steady: one of many checks of a drifting bed can do so by chance. Collective.
 bool CaseRun::has_become_steady() {
   if (!options_.until_steady() || simulation().time() < next_look_) return false;
   next_look_ = apart * simulation().time();
@@ -200,7 +200,7 @@ std::string CaseRun::command_to_resume(const std::vector<std::string>& more) con
 std::string CaseRun::advice_of(const Monitor& monitor) const {
   if (monitor.settings().empty())
     return "the effect cannot be added to a run that has begun: begin anew with it, or raise chooser.tolerance";
-  std::vector<std::string> chosen;  // which the added effect might change
+  std::vector<std::string> chosen;  // the added effect could change these
   for (const std::string& role : scene_.chooser.chosen)
     if (!find_entry(role)->effect->set_keys)
       chosen.push_back(fmt::format("effects.{}={}", role, core::law_of(scene_, role)));
@@ -228,7 +228,7 @@ void CaseRun::write_checkpoint() {
   core::Checkpoint state = checkpoint();
   add_case(state, scene_);
   state.texts[past_name] = core::json_text(past());
-  flush_rows();  // a run that goes on from the checkpoint does not write them again
+  flush_rows();  // a run continued from the checkpoint does not write them again
   core::write_checkpoint(checkpoint_path(directory_), std::move(state), ranks_.get(), checkpoint_rows());
   (void)record("running");
 }
@@ -240,7 +240,7 @@ void CaseRun::fail(const core::NumericsError& error) {
     write_checkpoint();
   } catch (const core::FileError& file_error) {
     kept = file_error.what();
-  } catch (const core::NumericsError&) {  // of its record, which is written once more below
+  } catch (const core::NumericsError&) {  // about its record, which is written once more below
   }
   record_if_possible(fmt::format("failed: {}", error.what()));
   const bool law = dynamic_cast<const core::ConservationError*>(&error) != nullptr;
@@ -252,7 +252,7 @@ void CaseRun::record_if_possible(const std::string& state) {
   ended_ = true;
   try {
     (void)record(state);
-  } catch (const core::FileError&) {  // what has ended the run says more
+  } catch (const core::FileError&) {  // the error that ended the run says more
   }
 }
 
@@ -261,9 +261,9 @@ std::string CaseRun::record(const std::string& state) {
   core::on_first(ranks_.get(), [&] {
     const std::filesystem::path path = directory_ / "run.json";
     if (ended_) return core::write_last(path, text + "\n");
-    constexpr std::size_t more = 4096;  // than the record of a run that goes on: why it has ended, its last steps
+    constexpr std::size_t more = 4096;  // beyond the record of an active run: the reason for its end, its last steps
     const std::size_t room = 2 * text.size() + more;
-    if (!recorded_) core::claim_room(path, text.size() + room);  // or the end of the run could not be recorded
+    if (!recorded_) core::claim_room(path, text.size() + room);  // else the end of the run could not be recorded
     recorded_ = true;
     core::write_atomically(path, text + "\n");
     core::keep_room(path, room);
@@ -324,7 +324,7 @@ void print_invariants(std::span<const measures::WorstInvariant> worst) {
 
 namespace {
 
-/// run.json of a run that has not begun.
+/// run.json of a run that failed before it started.
 void record_failed_start(const RunStart& run, const std::string& state) {
   core::Json json;
   begin_record(json, run.scene, run.model, state, run.ranks == nullptr ? 1 : run.ranks->count());
@@ -332,7 +332,7 @@ void record_failed_start(const RunStart& run, const std::string& state) {
   json["warnings"] = core::Json::array();
   try {
     core::write_last(run.directory / "run.json", core::json_text(json) + "\n");
-  } catch (const core::FileError&) {  // what has ended the start says more
+  } catch (const core::FileError&) {  // the error that ended the start says more
   }
 }
 

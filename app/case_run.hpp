@@ -1,5 +1,5 @@
-// One run of a case from its scene to its record, by either model. On several ranks all of them compute; the first
-// reads, writes and speaks.
+// One run of a case from its scene to its record, with either model. All ranks compute; the first one reads, writes and
+// prints.
 #pragma once
 
 #include <chrono>
@@ -25,7 +25,7 @@
 
 namespace polybed::app {
 
-/// The timer of what watches the effects that are left out.
+/// The timer for monitoring neglected effects.
 inline constexpr const char* monitor_term = "monitor";
 
 class CaseRun {
@@ -38,8 +38,8 @@ class CaseRun {
   CaseRun(const RunOptions& options, core::Scene scene, std::filesystem::path directory,
           std::shared_ptr<const core::Ranks> ranks, const std::string& model);
 
-  /// Takes up the run that --resume asks for, or the state of bed.start = "checkpoint:FILE", or begins anew.
-  /// Collective. \param resume  with the checkpoint, on the first rank what the file says of all, and the file's path
+  /// Resumes the run for --resume, or the state for bed.start = "checkpoint:FILE", or starts anew. Collective.
+  /// \param resume  with the checkpoint, on the first rank with all the file's contents, and the file's path
   /// \param start_from  likewise
   void prepare(const std::function<void(core::Checkpoint&, const std::filesystem::path&)>& resume,
                const std::function<void(core::Checkpoint&, const std::filesystem::path&)>& start_from);
@@ -49,35 +49,35 @@ class CaseRun {
   [[nodiscard]] virtual core::Checkpoint checkpoint() = 0;
   /// Makes the rows of history.csv survive a power cut. Collective.
   virtual void flush_rows() = 0;
-  /// What the checkpoint contains next to the state: what a resumed run cannot measure again. Collective.
+  /// Checkpoint data besides the state: values that a resumed run cannot measure again. Collective.
   [[nodiscard]] virtual core::Json past() = 0;
-  /// Takes that up, once the observers of a run that goes on are there. Throws FileError for what no run has left.
+  /// Restores that, once the observers of a continued run exist. Throws FileError for data that no run can have.
   void recall(const std::function<void(const core::Json&)>& take) const;
-  /// Arrays of the checkpoint that are made while it is written.
+  /// Arrays of the checkpoint that are computed while it is written.
   [[nodiscard]] virtual std::vector<core::BlockData> checkpoint_rows() { return {}; }
   [[nodiscard]] virtual core::ProgressLine line() = 0;
-  /// run.json. Collective; meant on the first rank.
+  /// Text of run.json. Collective; valid on the first rank.
   [[nodiscard]] virtual std::string record_text(const std::string& state) = 0;
   /// Work and invariants, on standard error; on the first rank.
   virtual void print_summary() = 0;
-  /// What to say of a failure, and what to do about it.
+  /// Description of a failure, and what to do about it.
   [[nodiscard]] virtual std::string advice() = 0;
-  /// After a step has failed: makes checkpoint() that of the last good state.
+  /// After a failed step: sets checkpoint() to the last good state.
   virtual void keep_last_state() {}
-  /// After each step: false if the user wants to stop.
+  /// After each step: false if the user requests a stop.
   [[nodiscard]] virtual bool after_step() { return !stop_wanted(); }
-  /// Whether nothing is left to simulate; the same on all ranks.
+  /// Whether nothing remains to be simulated; the same on all ranks.
   [[nodiscard]] virtual bool is_over() { return false; }
   [[nodiscard]] virtual std::vector<double> breakpoints() { return {}; }
-  /// What limited the step so far; empty: no step yet.
+  /// The limit of the step so far; empty: no step yet.
   [[nodiscard]] virtual std::string limited_by() const = 0;
-  /// What the whole run will take, told before it.
+  /// Cost of the whole run, predicted before it.
   [[nodiscard]] virtual TimeBand predicted() = 0;
-  /// The same by what a step of this run has taken, CPU s.
+  /// The same from the measured cost of a step in this run, CPU s.
   [[nodiscard]] virtual TimeBand predicted_by(double /*seconds_per_step*/) { return predicted(); }
 
-  /// With what a row of the history has measured. A run that has broken a conservation law ends after the step, all
-  /// that is due then being written, unless it is permissive. Collective.
+  /// Checks the measurements of a history row. A run that has violated a conservation law ends after the step, with all
+  /// output due then written, unless it is permissive. Collective.
   void judge(std::span<const measures::WorstInvariant> worst);
 
   /// Writes "card", on the first rank. \param actual  CPU s of all ranks
@@ -85,10 +85,10 @@ class CaseRun {
 
   /// Writes "prediction". \param actual  CPU s of all ranks
   void write_prediction_of(core::Json& json, double actual);
-  /// The same on standard error.
+  /// Prints it on standard error.
   void print_prediction(double actual);
 
-  /// Lets a monitor, if there is one, look at the state after a step; says on the first rank what it has to say.
+  /// Lets a monitor, if there is one, evaluate the state after a step; prints its messages on the first rank.
   /// Collective.
   template <class Model>
   void watch(Monitor* monitor, const Model& model) {
@@ -98,24 +98,24 @@ class CaseRun {
     say(monitor->look(model));
     if (monitor->settings().size() > settings) say({advice_of(*monitor) + "  (end this run first: Ctrl-C)"});
   }
-  /// How to go on with what a monitor has warned of.
+  /// How to continue after a monitor's warning.
   [[nodiscard]] std::string advice_of(const Monitor& monitor) const;
-  /// What a monitor has seen on all ranks, kept for print_promise(); empty without one. Collective.
+  /// A monitor's observations on all ranks, stored for print_promise(); empty without one. Collective.
   [[nodiscard]] std::optional<Neglected> promise_of(const Monitor* monitor);
-  /// What the run leaves out by its case, and of a monitor the table of bounds against what was seen.
+  /// The neglected effects by the case, and a monitor's table of bounds against observations.
   void print_promise() const;
   /// Prints lines on standard error, on the first rank, unless the run is quiet.
   void say(const std::vector<std::string>& lines) const;
-  /// Time by the clock since this process took up the run, s.
+  /// Wall time since this process started or resumed the run, s.
   [[nodiscard]] double wall_seconds() const;
 
-  core::Interrupt interrupt_;  // first: Ctrl-C while the model is made ends the run in order, too
+  core::Interrupt interrupt_;  // first: Ctrl-C during construction of the model also ends the run in order
   RunOptions options_;
   core::Scene scene_;
   std::filesystem::path directory_;
   std::shared_ptr<const core::Ranks> ranks_;
   std::string model_name_;  ///< "tfm" or "dem"
-  bool first_;              ///< this process is the one that reads, writes and speaks
+  bool first_;              ///< this process reads, writes and prints
   LeftOut left_out_;        ///< on the first rank
   core::Timers timers_;
   double cpu_begin_ = core::cpu_seconds(), begin_ = 0;
@@ -123,7 +123,7 @@ class CaseRun {
  private:
   std::optional<Neglected> promise_;
   std::string
-      past_;  ///< of the checkpoint that the run goes on from; empty without one, or if an older version wrote it
+      past_;  ///< from the checkpoint that the run continues; empty without one, or if an older version wrote it
   std::chrono::steady_clock::time_point clock_begin_ = std::chrono::steady_clock::now();
   [[nodiscard]] TimeBand prediction_of(double end) const;
   /// On any rank. Collective.
@@ -146,19 +146,19 @@ class CaseRun {
   BedOfCase expected_;                   ///< on the first rank
   Card card_;                            ///< of the last record
   TimeBand prediction_;                  ///< of the whole run
-  bool refined_ = false;                 ///< it rests on steps of this run
-  bool recorded_ = false;                ///< room for the record of the end was there once
-  bool ended_ = false;                   ///< the run will not go on
+  bool refined_ = false;                 ///< based on steps of this run
+  bool recorded_ = false;                ///< room for the record of the end was available once
+  bool ended_ = false;                   ///< the run will not continue
   static constexpr double apart = 1.25;  ///< ratio of the times of two checks of steadiness
   double next_look_ = 0;                 ///< s
   bool was_steady_ = false, steady_ = false;
-  std::optional<std::string> broken_law_;  ///< what to say of it
+  std::optional<std::string> broken_law_;  ///< its message
 };
 
 /// Prints a line for each invariant, on standard error.
 void print_invariants(std::span<const measures::WorstInvariant> worst);
 
-/// A run that is about to be made.
+/// Data for the start of a run.
 struct RunStart {
   const std::filesystem::path& directory;
   const core::Scene& scene;
@@ -167,15 +167,14 @@ struct RunStart {
   bool resumes;
 };
 
-/// Calls `start`, which makes the run. If it throws, run.json of a run that begins anew contains the reason, as far as
-/// it can be written; what was thrown goes on. A case that is wrong leaves no record, and neither does a start that
-/// fails before it has replaced an earlier run.
+/// Calls `start`, which starts the run. If it throws, writes the reason to run.json of a new run, if possible, and
+/// rethrows. A wrong case leaves no record; neither does a start that fails before it has replaced an earlier run.
 void start_run(const RunStart& run, const std::function<void()>& start);
 
 /// Prints the table of time by term.
 void print_timers(const core::Timers& timers);
 
-/// Prints the share of the time that each of the longest terms took: bars on a terminal, else one line.
+/// Prints the share of time for each of the longest terms: bars on a terminal, else one line.
 void print_shares(const core::Timers& timers);
 
 }  // namespace polybed::app

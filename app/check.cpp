@@ -1,4 +1,4 @@
-// polybed check: what to expect of a case and what it will need, on one screen; nothing is run.
+// polybed check: predictions and requirements of a case, on one screen, without a run.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -37,7 +37,7 @@ namespace {
 
 constexpr double mega = 1e-6;
 
-/// Numbers that follow from a case.
+/// Numbers derived from a case.
 struct Derived {
   relevance::FluidConstants fluid;
   double weight = 0;  ///< buoyant weight of the solids per area, Pa
@@ -47,7 +47,7 @@ struct Derived {
   std::vector<std::string> notes;
 };
 
-/// By how much a partition makes the drag of the settled bed differ from the mean law, at the inlet's velocity.
+/// Relative difference in the settled bed's drag between a partition and the mean law, at the inlet's velocity.
 void note_partition(const core::Scene& scene, Derived& derived) {
   const double velocity = fluid::Ramp(scene.inlet.superficial_velocity).greatest();
   std::vector<double> diameter;
@@ -81,7 +81,7 @@ void note_drag(const core::Scene& scene, Derived& derived) {
                               "that of the pressure drop, which is therefore not exact");
 }
 
-/// What the case has on and the two-fluid model has no law of, by what it does without.
+/// Notes effects in the case that the two-fluid model has no law for, with the consequence of each.
 void note_roles_of_particles(const core::Scene& scene, Derived& derived) {
   std::map<std::string, std::vector<std::string>> roles;
   for (const core::Role& role : all_roles())
@@ -91,7 +91,7 @@ void note_roles_of_particles(const core::Scene& scene, Derived& derived) {
     derived.notes.push_back(fmt::format("{} in polybed dem alone: {}", fmt::join(names, ", "), absent));
 }
 
-/// What flows in: its greatest speed, m/s, and what becomes of particles that fall more slowly.
+/// Inflow: its greatest speed, m/s, and the consequence for particles that fall more slowly.
 struct Inflow {
   std::string name;
   double velocity = 0;
@@ -200,7 +200,7 @@ void print_requirements(const core::Scene& scene, const Requirements& need) {
               computing_text(tfm_time(scene, need, known_machine())), need.time->steps, need.time->seconds_per_step);
 }
 
-/// The classes of the distributions, with y_j = D_j over the Sauter diameter of the distribution.
+/// The classes of the distributions, with y_j = D_j over the distribution's Sauter diameter.
 void print_size_classes(const core::Scene& scene) {
   for (const core::SizeClasses& record : scene.size_classes) {
     const double sauter = closures::sauter_diameter(record.share, record.diameter);
@@ -233,12 +233,12 @@ void add_particles(const core::Scene& scene, const ParticleRequirements& need, s
   lines.push_back(card_line("", fmt::format("step {:.2g} s, limited by {}", need.limits.dt, need.limits.limited_by)));
 }
 
-/// Title, card, notes; those that do not fit on the screen are counted.
+/// Prints title, card, notes; counts those that do not fit on the screen.
 void print_screen(const core::Scene& scene, std::vector<std::string> lines, const std::vector<std::string>& notes) {
   const std::string title = scene.title.empty() ? "a case without a title" : scene.title;
   core::put(stdout, core::Colour::bold, title + "\n");
   for (const std::string& line : lines) core::print("{}\n", line);
-  const std::size_t room = screen - 3 - std::min(lines.size(), screen - 3);  // beside title, empty line and last line
+  const std::size_t room = screen - 3 - std::min(lines.size(), screen - 3);  // next to title, empty line and last line
   const std::size_t shown = notes.size() <= room ? notes.size() : room - std::min<std::size_t>(room, 1);
   if (!notes.empty()) core::print("\n");
   for (std::size_t n = 0; n < shown; ++n) {
@@ -249,12 +249,12 @@ void print_screen(const core::Scene& scene, std::vector<std::string> lines, cons
   core::print("more: --details (numerics, memory), --resolved (all keys); polybed effects, polybed estimate\n");
 }
 
-/// What each model that runs the case leaves out.
+/// Adds the effects that each model of the case neglects.
 void add_left_out(const core::Scene& scene, const std::string& model, std::vector<std::string>& lines) {
   lines.push_back(card_line("left out", model + ": " + left_out_text(left_out(scene, model))));
 }
 
-/// Effects that make a run of particles much longer.
+/// Notes effects that make a run of particles much longer.
 void note_costs(const core::Scene& scene, std::vector<std::string>& notes) {
   for (const auto& [role, law] : scene.effects)
     if (const double times = steps_by(scene, role); times > many_more_steps)
@@ -262,7 +262,7 @@ void note_costs(const core::Scene& scene, std::vector<std::string>& notes) {
                                   role, law, times));
 }
 
-/// What was chosen for the case, and what it has off but needs, by each model that runs it.
+/// Notes the chosen effects, and effects that are off but needed, for each model of the case.
 void note_choice(const core::Scene& scene, const std::vector<std::string>& models, std::vector<std::string>& notes) {
   for (std::string line : {chosen_line(scene), unsuited_line(scene)})
     if (!line.empty()) notes.push_back(std::move(line));
@@ -271,7 +271,7 @@ void note_choice(const core::Scene& scene, const std::vector<std::string>& model
       notes.push_back(model + ": " + line);
 }
 
-/// A case that only the particle model runs: what it will need there, and what keeps it from the continuum.
+/// Checks a case that only the particle model runs: its requirements there, and the reasons against the continuum.
 void check_particle_scene(const core::Scene& scene, const std::vector<std::string>& reasons,
                           const RunOptions& options) {
   const ParticleRequirements need = placed_requirements_of(scene);
@@ -301,8 +301,8 @@ void check_particle_scene(const core::Scene& scene, const std::vector<std::strin
   print_screen(scene, lines, notes);
 }
 
-/// What a case that both models run will need as particles: of one that says how they touch. What keeps it from there
-/// goes to the notes.
+/// Requirements as particles of a case that both models run, if it defines contacts. Reasons against that are added to
+/// the notes.
 std::optional<ParticleRequirements> as_particles(const core::Scene& scene, std::vector<std::string>& notes) {
   if (!scene.effects.contains("contact")) return {};
   std::vector<std::string> reasons = core::texts_of(rules_of_dem().problems(scene));
@@ -315,12 +315,12 @@ std::optional<ParticleRequirements> as_particles(const core::Scene& scene, std::
   return {};
 }
 
-/// The models that the case is for, of those that can run it: the continuum, and particles where they can.
+/// The models that suit the case, among those that can run it: the continuum, and particles if possible.
 std::vector<std::string> advised_models(const core::Scene& scene, bool particles) {
   return particles ? models_of(scene) : std::vector<std::string>{"tfm"};
 }
 
-/// What follows from the case and what it takes, all of it.
+/// Prints all derived numbers and the cost.
 void print_details(const core::Scene& scene, const Derived& derived, const Requirements& need,
                    const std::optional<ParticleRequirements>& particles) {
   print_size_classes(scene);
@@ -344,7 +344,7 @@ void run_check(const RunOptions& options) {
   if (const auto reasons = rules_of_tfm().problems(scene); !reasons.empty())
     return check_particle_scene(scene, core::texts_of(reasons), options);
   std::vector<std::string> hindrances;
-  const auto particles = as_particles(scene, hindrances);  // while memory is the program's
+  const auto particles = as_particles(scene, hindrances);  // measured while the memory is the program's
   core::Timers timers;
   std::unique_ptr<tfm::Model> part;
   const Requirements need = requirements_of(scene, timers, part);
@@ -369,7 +369,7 @@ void run_check(const RunOptions& options) {
     if (particles) write_particle_requirements(json["dem"], scene, *particles);
     write_size_classes(json, scene);
     json["refused"] = refusals_of(scene);
-    if (json["refused"]["dem"].empty()) json["refused"]["dem"] = hindrances;  // what only placing the particles tells
+    if (json["refused"]["dem"].empty()) json["refused"]["dem"] = hindrances;  // found only by placing the particles
     json["notes"] = derived.notes;
     return core::print("{}\n", core::json_text(json));
   }

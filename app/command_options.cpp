@@ -1,4 +1,4 @@
-// What several commands take on the command line.
+// Common command-line options of several commands.
 #include "app/commands.hpp"
 
 namespace polybed::app {

@@ -1,4 +1,4 @@
-// What each command takes on the command line, and what it does then.
+// Command-line options and action of each command.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -13,18 +13,18 @@
 
 namespace polybed::app {
 
-/// Which ranks a command is for. Starting MPI takes 0.3 s, which commands that only compute a number need not wait for.
-/// A study goes on in the first process alone, without MPI: what it runs, it starts on as many ranks.
+/// The ranks that a command uses. Starting MPI takes 0.3 s, which commands that only compute a number avoid. A study
+/// continues in the first process alone, without MPI, and starts its runs on the same number of ranks.
 enum class On { one_process, first_rank, all_ranks, study };
 
 struct Command {
   const CLI::App* app;
   std::function<core::ExitCode()> run;
-  std::function<On()> on = [] { return On::one_process; };  ///< once the line is read
+  std::function<On()> on = [] { return On::one_process; };  ///< called once the line is read
 };
 using Commands = std::vector<Command>;
 
-/// \param act  what the command does; one that returns nothing ends with core::ExitCode::done
+/// \param act  action of the command; one that returns nothing ends with core::ExitCode::done
 template <class Act>
 std::function<core::ExitCode()> doing(Act act) {
   if constexpr (std::is_void_v<decltype(act())>)
@@ -43,7 +43,7 @@ void add_plot(CLI::App& app, Commands& commands);
 void add_report(CLI::App& app, Commands& commands);
 void add_watch(CLI::App& app, Commands& commands);
 
-/// A case from a template.
+/// Creates a case from a template.
 void add_new(CLI::App& app, Commands& commands);
 void add_check(CLI::App& app, Commands& commands);
 void add_effects(CLI::App& app, Commands& commands);
@@ -61,11 +61,11 @@ void add_resolve(CLI::App& app, Commands& commands);
 void add_stability(CLI::App& app, Commands& commands);
 void add_validate(CLI::App& app, Commands& commands);
 
-/// CASE, --set and --json.
+/// Adds CASE, --set and --json.
 void take_case(CLI::App& command, CaseOptions& options, bool required = true);
-/// A command that runs a case by a model of that name.
+/// Adds a command that runs a case with the named model.
 CLI::App& add_run(CLI::App& app, const std::string& model, const std::string& help, RunOptions& options);
-/// A command whose options are those of the program that it hands over to, --help included.
+/// Adds a command that passes all options, including --help, to another program.
 CLI::App& add_handed_over(CLI::App& app, const std::string& name, const std::string& help);
 
 }  // namespace polybed::app

@@ -54,7 +54,7 @@ class DemRun final : public CaseRun {
   }
 
  private:
-  /// Counters that the model does not keep in its own checkpoint.
+  /// Counters that are not in the model's own checkpoint.
   static constexpr std::array<std::pair<const char*, std::uint64_t dem::Work::*>, 6> counters_{
       {{"pair_checks", &dem::Work::pair_checks},
        {"contact_steps", &dem::Work::contact_steps},
@@ -63,7 +63,7 @@ class DemRun final : public CaseRun {
        {"shortenings", &dem::Work::shortenings},
        {"cuts", &dem::Work::cuts}}};
 
-  /// Of the whole run. Collective.
+  /// For the whole run. Collective.
   [[nodiscard]] dem::Work work_of_run() const {
     dem::Work work = model_.work();
     for (const auto& [name, counter] : counters_) work.*counter += before_.*counter;
@@ -83,7 +83,7 @@ class DemRun final : public CaseRun {
     observers_->recall(core::member_of(past, "invariants"));
     if (monitor_ && past.contains("monitor")) monitor_->recall(past["monitor"], ranks_.get());
     emptied_ = past.contains("emptied") && past["emptied"] == true;
-    // What this process has counted so far, the one before has counted. Unsigned numbers come right again.
+    // The earlier process's counts include this one's so far. Unsigned differences wrap back correctly.
     const core::Json& before = core::member_of(past, "work");
     const dem::Work here = model_.work();
     for (const auto& [name, counter] : counters_)
@@ -92,7 +92,7 @@ class DemRun final : public CaseRun {
 
   void flush_rows() override { observers_->flush(); }
 
-  /// Every few seconds.
+  /// Shown every few seconds.
   void show_settling(const dem::Settling& bed) {
     constexpr double pause = 5;  // s
     if (options_.quiet || wall_seconds() < settling_shown_ + pause) return;
@@ -114,7 +114,7 @@ class DemRun final : public CaseRun {
              }}};
   }
 
-  /// Steps are short: asking all ranks at each whether the user wants to stop would cost more than some of them.
+  /// Steps are short: checking all ranks at each step for a stop by the user would cost more than some steps.
   bool after_step() override {
     observers_->see_step();
     watch(monitor_.get(), model_);
@@ -154,7 +154,7 @@ class DemRun final : public CaseRun {
     return fmt::format("the step was {:.3g} s, limited by {}", model_.limits().dt, model_.limits().limited_by);
   }
 
-  /// Warnings on the step and the contacts that follow from the case alone.
+  /// Warnings about the step and the contacts, from the case alone.
   [[nodiscard]] std::vector<std::string> warnings_before() const {
     std::vector<std::string> lines;
     for (const std::string& line :
@@ -163,7 +163,7 @@ class DemRun final : public CaseRun {
     return lines;
   }
 
-  /// Of particles that have found no room; empty: there are none.
+  /// Warning about particles without room; empty: there are none.
   [[nodiscard]] std::string feed_warning() const {
     return model_.feeding() == nullptr ? "" : model_.feeding()->warning();
   }
@@ -234,7 +234,7 @@ class DemRun final : public CaseRun {
             {"imbalance", work_.imbalance}};
   }
 
-  /// \param number  of particles that have left or entered, of each species
+  /// \param number  of particles of each species that have left or entered
   [[nodiscard]] core::Json passed_json(const std::vector<std::int64_t>& number) const {
     core::Json json;
     for (std::size_t j = 0; j < number.size(); ++j) {
@@ -296,10 +296,10 @@ class DemRun final : public CaseRun {
   }
 
   dem::Model model_;
-  std::unique_ptr<Monitor> monitor_ = Monitor::of(scene_, "dem");  ///< null: nothing is watched
+  std::unique_ptr<Monitor> monitor_ = Monitor::of(scene_, "dem");  ///< null: no monitor
   std::optional<dem::Observers> observers_;
-  dem::Work work_, before_;           ///< of the last record; what the processes before this one have counted
-  std::optional<FluidReport> fluid_;  ///< of the last record; absent without a fluid
+  dem::Work work_, before_;           ///< in the last record; by earlier processes
+  std::optional<FluidReport> fluid_;  ///< in the last record; absent without a fluid
   double cpu_ = 0;
   double history_at_ = -1;     ///< time of the last row, s
   bool emptied_ = false;       ///< all particles have left, and none is fed
@@ -311,12 +311,12 @@ void run_dem(const RunOptions& options) {
   const fs::path directory = run_directory(options, "dem");
   const std::shared_ptr<const core::Ranks> ranks = core::Ranks::of_program();
   core::give_back_what_is_freed();
-  std::unique_ptr<const core::OutputDirectory> taken;  // by the first rank
+  std::unique_ptr<const core::OutputDirectory> taken;  // on the first rank
   core::on_first(ranks.get(), [&] {
     require_particle_memory(scene);
     taken = take_directory(directory, options);
   });
-  // Refuse a checkpoint of another case before its model is built, which may fail for other reasons.
+  // Reject a checkpoint of another case before its model is built, which could fail for other reasons.
   if (options.resume) core::on_first(ranks.get(), [&] { (void)read_checkpoint_of(directory, scene, "dem"); });
   std::optional<DemRun> run;
   start_run({directory, scene, "dem", ranks.get(), options.resume},

@@ -51,7 +51,7 @@ void check_point(double voidage, double reynolds, const std::string& where) {
     throw core::CaseError(fmt::format("{}Reynolds number {} is outside [0, inf)", where, reynolds));
 }
 
-/// A number of the answer; one that overflows is the user's error: the point is too far out.
+/// A number of the answer; overflow is the user's error: the point is too extreme.
 double finite(double value, double voidage, double reynolds, const std::string& where) {
   if (!std::isfinite(value))
     throw core::CaseError(fmt::format("{}the drag at voidage {} and Reynolds number {} is too large for a number",
@@ -59,7 +59,7 @@ double finite(double value, double voidage, double reynolds, const std::string& 
   return value;
 }
 
-/// The base law at one point; a refusal of a bare formula is the user's error.
+/// The base law at one point; an exception from a bare formula is the user's error.
 double at_point(const DragLaw& law, double voidage, double reynolds, closures::GuardCount& count,
                 const std::string& where) {
   double f = 0, slope = 0;
@@ -72,7 +72,7 @@ double at_point(const DragLaw& law, double voidage, double reynolds, closures::G
   return f;
 }
 
-/// The laws of one size that are within their ranges at a point, from the least drag to the greatest.
+/// The laws of one size that are valid at a point, from the least drag to the greatest.
 std::vector<std::pair<double, std::string>> laws_at(double voidage, double reynolds) {
   std::vector<std::pair<double, std::string>> found;
   for (const closures::DragLawInfo& info : closures::drag_laws()) {
@@ -87,7 +87,7 @@ std::vector<std::pair<double, std::string>> laws_at(double voidage, double reyno
   return found;
 }
 
-/// What the number is, on standard error: scripts read the number alone.
+/// Describes the number on standard error, so that scripts read only the number.
 void explain_point(const DragOptions& options, double f, bool outside) {
   core::print(stderr,
               "f = {:.5g}: drag without buoyancy over Stokes drag 3 pi mu D u, unit 1; n = f/voidage = {:.5g}\n", f,
@@ -128,15 +128,15 @@ std::vector<std::string> split(const std::string& line) {
   return cells;
 }
 
-/// What a row of a table asks: a voidage, a Reynolds number, and of a mixture its shares and diameters.
+/// Input from a row of a table: a voidage, a Reynolds number, and for a mixture its shares and diameters.
 struct Row {
-  std::string text;            ///< the cells that define it, as the file has them
+  std::string text;            ///< its input cells, as in the file
   std::string where;           ///< file and line
   std::vector<double> values;  ///< all of them, in the order of the header
   std::vector<double> share, diameter;
 };
 
-/// The names of the answers to a row.
+/// Names of the results for a row.
 std::vector<std::string> answer_names(std::size_t species, bool shared) {
   if (species == 0) return {"f", "n"};
   std::vector<std::string> names{"f_mean", "n_mean"};
@@ -146,8 +146,8 @@ std::vector<std::string> answer_names(std::size_t species, bool shared) {
   return names;
 }
 
-/// f and n; of a mixture their means and, per species, f_j, n_j, alpha_j, Omega_j; with a partition by how much the
-/// drag of all species together departs from the mean law.
+/// f and n; for a mixture their means and, per species, f_j, n_j, alpha_j, Omega_j; with a partition the relative
+/// difference of the total drag from the mean law.
 std::vector<double> answer(const DragLaw& law, const Row& row) {
   const double eps = row.values[0], re = row.values[1];
   const std::size_t n = row.share.size();
@@ -185,8 +185,8 @@ double number_in(const std::string& cell, const std::string& where) {
   throw core::CaseError(where + "'" + cell + "' is no number");
 }
 
-/// The columns of a header that define the point. What was measured there may follow, from n_1 on, as `polybed
-/// resolve` writes it.
+/// The columns of a header that define the point. Measurements can follow, from n_1 on, as `polybed resolve` writes
+/// them.
 std::vector<std::string> asked_in(std::vector<std::string> columns, const std::string& where) {
   columns.erase(std::find(columns.begin(), columns.end(), "n_1"), columns.end());
   bool fits = columns.size() >= 2 && columns.size() % 2 == 0 && columns[0] == "eps" && columns[1] == "Re";
@@ -196,7 +196,7 @@ std::vector<std::string> asked_in(std::vector<std::string> columns, const std::s
   return columns;
 }
 
-/// \param columns  of the header  \param asked  how many of them define the point
+/// \param columns  in the header  \param asked  number of columns that define the point
 Row row_of(const std::string& line, std::size_t columns, std::size_t asked, const std::string& where) {
   std::vector<std::string> cells = split(line);
   if (cells.size() != columns)

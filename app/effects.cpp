@@ -1,4 +1,4 @@
-// polybed effects: which effects a scene calls for, with the number that decides each; nothing is run.
+// polybed effects: the effects that a scene needs, with the deciding number of each, without a run.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -35,14 +35,14 @@ std::string state_text(const relevance::EffectRow& row) {
   return row.kind == Kind::unmodelled || !row.not_built.empty() ? "MISSING" : "on";
 }
 
-/// What the case itself says of a role; empty for what is none.
+/// The case's own setting for a role; empty for other rows.
 std::string case_text(const core::Scene& scene, const relevance::EffectRow& row) {
   if (row.kind != Kind::role || !row.not_built.empty()) return "";
   const std::string law = core::law_of(scene, row.effect);
   return core::is_off(law) ? "off" : law;
 }
 
-/// Where a value is the greatest, "fine, freeboard", in plain words.
+/// Place of the greatest value, "fine, freeboard", in plain words.
 std::string place_text(const std::string& where) {
   using relevance::Zone;
   constexpr std::array<std::pair<Zone, const char*>, 4> places{{{Zone::packed, "in the settled bed"},
@@ -64,7 +64,7 @@ std::string reason_text(const relevance::EffectRow& row) {
 
 constexpr std::size_t width = 100;  // columns
 
-/// A text on lines of at most `width` columns that begin with `front`.
+/// Wraps a text at `width` columns; each line begins with `front`.
 std::string wrapped(const std::string& text, const std::string& front) {
   std::string lines, line = front;
   std::size_t from = 0;
@@ -84,7 +84,7 @@ std::string wrapped(const std::string& text, const std::string& front) {
 
 std::string indented(const std::string& text, std::size_t by) { return wrapped(text, std::string(by, ' ')); }
 
-constexpr std::string_view off = "off";  // as case_text() has it
+constexpr std::string_view off = "off";  // as in case_text()
 
 using ModelNames = std::vector<std::string>;
 
@@ -94,7 +94,7 @@ bool acts_in(const relevance::EffectRow& row, const ModelNames& models) {
                      [&](const std::string& model) { return row.models.find(model) != std::string::npos; });
 }
 
-/// What the table advises of a row.
+/// The table's advice for a row.
 enum class Advice { none, add, replace, may_leave_out, try_it };
 
 Advice advice_of(const core::Scene& scene, const relevance::EffectRow& row) {
@@ -114,7 +114,7 @@ const char* mark_of(Advice advice) {
 
 std::string advised_law(const relevance::EffectRow& row) {
   if (row.state == State::undecided) return "undecided";
-  return row.state == State::on ? row.model : row.has_number() ? "off" : "-";  // of what no number decides nothing
+  return row.state == State::on ? row.model : row.has_number() ? "off" : "-";  // no number, no decision
 }
 
 std::string limit_text(const relevance::EffectRow& row) {
@@ -132,7 +132,7 @@ std::string other_line(const relevance::EffectRow& row) {
                      row.kind == Kind::condition ? row.model : "", value_text(row), limit_text(row));
 }
 
-/// A sum of forces beside what is allowed.
+/// A sum of forces with its allowed value.
 std::string share_text(double sum, double allowed) {
   return relevance::percent(sum) + (sum > allowed ? " (too much)" : "");
 }
@@ -149,7 +149,7 @@ std::string sums_text(const core::Scene& scene, const relevance::Choice& choice)
                                  relevance::percent(choice.tolerance), core::name_of(scene.chooser.purpose));
   text += "  as recommended: " + by_model(choice.rows);
   if (!relevance::has_auto(scene)) text += "  as the case is: " + by_model(choice.of_case);
-  std::vector<std::pair<std::string, std::string>> told;  // a remedy, and the models that it is one for
+  std::vector<std::pair<std::string, std::string>> told;  // a remedy, and the models that it applies to
   for (const std::string& model : models)
     for (const std::string& line : remedies(left_out(scene, model))) {
       const auto same = std::find_if(told.begin(), told.end(), [&](const auto& one) { return one.first == line; });
@@ -164,7 +164,7 @@ std::string sums_text(const core::Scene& scene, const relevance::Choice& choice)
   return text;
 }
 
-/// What an effect that is to be switched on costs, where that is known: empty where it hardly costs.
+/// Cost of turning on an effect, if known: empty if it is negligible.
 std::string cost_text(const core::Scene& scene, const relevance::Choice& choice, const relevance::EffectRow& row) {
   const relevance::MenuEntry* entry = find_entry(row.effect);
   if (entry == nullptr || !acts_in(row, {"dem"})) return "";
@@ -175,7 +175,7 @@ std::string cost_text(const core::Scene& scene, const relevance::Choice& choice,
   return times > many_more_steps ? fmt::format("; polybed dem takes {:.2g} times as long with it", times) : "";
 }
 
-/// A line for the case with its reason, beside it where that fits. A change that is a choice stands behind #.
+/// A line for the case with its reason on the same line if it fits. An optional change is commented out with #.
 std::string line_for_case(Advice advice, const relevance::EffectRow& row, const std::string& cost) {
   const std::string law = row.state == State::on || advice == Advice::try_it ? row.model : "none";
   const std::string line = fmt::format("{}{} = \"{}\"", advice == Advice::add ? "" : "# ", row.effect, law);
@@ -188,7 +188,7 @@ std::string line_for_case(Advice advice, const relevance::EffectRow& row, const 
   return beside.size() <= width + 1 ? beside : wrapped(reason, "# ") + line + "\n";
 }
 
-/// What to write into the case, with the reason of each line.
+/// Lines for the case, each with its reason.
 std::string lines_for_case(const core::Scene& scene, const relevance::Choice& choice) {
   std::string lines;
   bool chosen = false;
@@ -216,7 +216,7 @@ std::string names_line(const std::string& front, const std::vector<std::string>&
   return names.empty() ? "" : wrapped(fmt::format("{}: {}", front, fmt::join(names, ", ")), "  ");
 }
 
-/// The rows that the case has or should have; of the others their names.
+/// The rows that the case has or should have, and the names of the others.
 std::string short_table(const core::Scene& scene, const relevance::Choice& choice) {
   std::string lines;
   const ModelNames models = models_of(scene);
@@ -249,8 +249,8 @@ std::string whole_table(const core::Scene& scene, const relevance::Choice& choic
   return text;
 }
 
-/// The lines to put into the case with their reasons, what is left out, and the effects that the case has or should
-/// have, with a mark where it should change: at most 100 columns wide, one screen.
+/// The lines for the case with their reasons, the neglected effects, and the effects that the case has or should have,
+/// with a mark for changes: at most 100 columns wide, one screen.
 /// \param details  every effect with its reason instead
 std::string effects_table(const core::Scene& scene, const relevance::Choice& choice, bool details) {
   return lines_for_case(scene, choice) + "\n" + sums_text(scene, choice) + "\n" +

@@ -1,4 +1,4 @@
-// polybed estimate: what a run will take, before it.
+// polybed estimate: the cost of a run, before it.
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
@@ -15,9 +15,9 @@ namespace polybed::app {
 
 namespace {
 
-/// Options of the estimate of what a run will take.
-struct EstimateOptions : CaseOptions {  // case_path may be empty
-  std::string model;                    ///< tfm | dem; empty: the continuum where it runs the case
+/// Options for estimating the cost of a run.
+struct EstimateOptions : CaseOptions {  // case_path can be empty
+  std::string model;                    ///< tfm | dem; empty: the continuum if it runs the case
   std::string probe;                    ///< CPU time; empty: none
   int ranks = 1;
   bool machine = false;  ///< measure the machine
@@ -42,13 +42,13 @@ double seconds_of(const std::string& text) {
   return time->value;
 }
 
-/// The models asked for.
+/// The requested models.
 Models models_of(const EstimateOptions& options) {
   if (options.model.empty()) return either_model();
   return {options.model == "dem" ? &rules_of_dem() : &rules_of_tfm()};
 }
 
-/// The model asked for; else the two-fluid model where it runs the case.
+/// The requested model; else the two-fluid model if it runs the case.
 std::string model_of(const EstimateOptions& options, const core::Scene& scene) {
   if (!options.model.empty()) return options.model;
   return rules_of_tfm().problems(scene).empty() ? "tfm" : "dem";

@@ -1,4 +1,4 @@
-// polybed explain: one word of the program.
+// polybed explain: explains one word of the program.
 #include "app/explain.hpp"
 
 #include <fmt/format.h>
@@ -71,7 +71,7 @@ Meaning meaning_of(const core::Table& table) {
   return {text, {{"table", std::string(table.name)}}};
 }
 
-/// The laws of a role, those to take first.
+/// The laws of a role, recommended ones first.
 std::vector<core::Law> in_order(const core::Role& role) {
   const auto place = [&](const core::Law& law) {
     return std::find_if(role.advice.begin(), role.advice.end(), [&](const auto& one) { return one.law == law.name; }) -
@@ -124,7 +124,7 @@ void add_measures(const measures::Table<Source>& table, const std::string& word,
   }
 }
 
-/// "dem" and "effects.drag" as they are typed: the name of a role without its table.
+/// "dem" and "effects.drag" as users type them: the name of a role without its table.
 std::string without_table(const std::string& word) {
   const std::string front = "effects.";
   return word.starts_with(front) ? word.substr(front.size()) : word;

@@ -1,4 +1,4 @@
-// What a word of the program means: a key, a role, a law, or what a run prints.
+// Meaning of a word in the program: a key, a role, a law, or a word in its output.
 #pragma once
 
 #include <string>
@@ -9,20 +9,20 @@
 
 namespace polybed::app {
 
-/// A word that the program prints beside keys, roles and laws.
+/// A word in the program's output, other than keys, roles and laws.
 struct Term {
   std::string name, kind;  ///< kind: "status", "line of the card", "invariant" ...
-  std::string help;        ///< what it means
-  std::string todo;        ///< what to choose or to do; may be empty
+  std::string help;        ///< its meaning
+  std::string todo;        ///< what to choose or to do; can be empty
 };
 
 /// All of them, app/terms.cpp.
 [[nodiscard]] const std::vector<Term>& terms();
 
-/// A text behind another one, on lines of at most 100 columns; those that follow are indented.
+/// Appends a text to a line, wrapped at 100 columns; further lines are indented.
 [[nodiscard]] std::string beside(std::string line, std::size_t indent, const std::string& text);
 
-/// A key as polybed schema --json has it.
+/// A key as in polybed schema --json.
 [[nodiscard]] core::Json json_of_key(const core::Key& key);
 
 }  // namespace polybed::app

@@ -1,4 +1,4 @@
-// Commands that hand over to another program, or serve one.
+// Commands that become another program, or serve one.
 #include <fmt/format.h>
 
 #include "app/commands.hpp"
@@ -9,7 +9,7 @@ namespace polybed::app {
 
 namespace {
 
-/// One that becomes a module of the Python package.
+/// Adds a command that becomes a module of the Python package.
 void add_study(CLI::App& app, Commands& commands, const std::string& name, const std::string& help,
                const std::string& module, On on) {
   CLI::App& command = add_handed_over(app, name, help);

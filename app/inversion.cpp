@@ -1,4 +1,4 @@
-// polybed inversion: the inversion point of a binary case, with the bands of its inputs.
+// polybed inversion: the inversion point of a binary case, with bands from the uncertainty of its inputs.
 #include <fmt/format.h>
 
 #include "core/print.hpp"
@@ -22,13 +22,13 @@ namespace polybed::app {
 
 namespace {
 
-/// How far one uncertain input moves the answer.
+/// Effect of one uncertain input on the answer.
 struct Band {
   std::string input;
   double low, high;  ///< m/s
 };
 
-/// The least and greatest velocity over two variations; empty where a variation has no root.
+/// The least and greatest velocity over two variations; empty if a variation has no root.
 std::vector<Band> bands(const core::Scene& scene, const closures::DragLaw& law, const std::string& method,
                         double voidage) {
   std::vector<Band> result;
@@ -46,7 +46,7 @@ std::vector<Band> bands(const core::Scene& scene, const closures::DragLaw& law, 
         low = std::min(low, near.velocity);
         high = std::max(high, near.velocity);
       } catch (const core::CaseError&) {
-        return;  // the fluid is not known at that temperature
+        return;  // the fluid is unknown at that temperature
       }
     }
     result.push_back({input, low, high});
@@ -129,7 +129,7 @@ void print_methods_json(const std::vector<MethodRow>& rows) {
   core::print("{}\n", core::json_text({{"methods", methods}}));
 }
 
-/// How a law shares the drag among the species, for people.
+/// Distribution of a law's drag among the species, for people.
 std::string sharing_of(const MethodRow& row) {
   if (!row.partition.empty()) return row.partition;
   for (const closures::DragLawInfo& law : closures::drag_laws())
@@ -137,7 +137,7 @@ std::string sharing_of(const MethodRow& row) {
   return "";
 }
 
-/// Within each method by rising velocity of the last point; without a point last. A star is at the law of the case.
+/// Sorted within each method by the last point's velocity; rows without a point come last. A star marks the case's law.
 void print_methods(std::vector<MethodRow> rows, const core::Scene& scene) {
   const auto velocity = [](const MethodRow& row) { return row.points.empty() ? 1e300 : row.points.back().velocity; };
   for (auto first = rows.begin(); first != rows.end();) {
@@ -160,7 +160,7 @@ void print_methods(std::vector<MethodRow> rows, const core::Scene& scene) {
       "(mixtures): a law made for several sizes; (one size): applied to each species as if it were alone\n");
 }
 
-/// A line for each point of a row, or one that it has none.
+/// A line for each point of a row, or one that says there is none.
 void print_row(const MethodRow& row, const std::string& name, bool of_case) {
   const std::string front = fmt::format("{} {:34}", of_case ? "*" : " ", name);
   if (row.points.empty()) core::print("{} {:>8} {:>8}\n", front, "-", "-");
@@ -169,7 +169,7 @@ void print_row(const MethodRow& row, const std::string& name, bool of_case) {
 
 std::string name_of(const MethodRow& row) { return row.partition.empty() ? row.law : row.law + " x " + row.partition; }
 
-/// Drag laws to take first, with their partition, and why: docs/guide/choose-a-drag-law.md.
+/// Recommended drag laws, with partition and reason: docs/guide/choose-a-drag-law.md.
 struct Recommended {
   const char* why;
   std::vector<std::pair<std::string, std::string>> pairs;
@@ -184,7 +184,7 @@ const std::vector<Recommended>& recommended() {
   return all;
 }
 
-/// The rows to look at first, on one screen.
+/// The most relevant rows, on one screen.
 void print_best_methods(const std::vector<MethodRow>& rows, const core::Scene& scene) {
   const std::string drag = core::law_of(scene, "drag");
   const std::string partition = scene.effects.contains("partition") ? core::law_of(scene, "partition") : "";
@@ -224,7 +224,7 @@ void print_best_methods(const std::vector<MethodRow>& rows, const core::Scene& s
   core::print("*: the law of the case; -: no inversion point; every method, law and pair: --details\n");
 }
 
-/// By how much the drag of all species together departs from the mean law at a root.
+/// Relative difference of the total drag from the mean law at a root.
 void print_deviation(const BinaryBed& bed, const closures::DragLaw& law, const InversionPoint& at) {
   std::array<double, 2> f{}, slope{};
   closures::drag_of_mixture(law, at.voidage, bed.share, bed.diameter, std::array{at.velocity, at.velocity},
@@ -236,9 +236,9 @@ void print_deviation(const BinaryBed& bed, const closures::DragLaw& law, const I
     core::print("  drag of all species together: {:+.2f} % of the mean law\n", 100 * deviation);
 }
 
-/// Over the share of the second species, T fig. 5-VIII: the point by a method, and the mixed interval.
+/// Table over the share of the second species, T fig. 5-VIII: the point from a method, and the mixed interval.
 void print_composition(const core::Scene& scene, const closures::DragLaw& law, const InversionOptions& options) {
-  constexpr int parts = 20;  // of the way from one species alone to the other, neither of which has a point
+  constexpr int parts = 20;  // between the pure species, neither of which has a point
   core::Json rows = core::Json::array();
   core::Scene varied = scene;
   varied.bed.particles.clear();
@@ -270,7 +270,7 @@ void print_composition(const core::Scene& scene, const closures::DragLaw& law, c
                                          {"composition", rows}}));
 }
 
-/// Why two species never change places, for the message; empty if sizes and densities do not decide it.
+/// Why two species never change places, for the message; empty if sizes and densities do not decide.
 std::string reason_of(const core::Scene& scene) {
   const bool first = scene.species[0].diameter > scene.species[1].diameter;
   const core::Species &larger = scene.species[first ? 0 : 1], &smaller = scene.species[first ? 1 : 0];
@@ -309,7 +309,7 @@ void run_without_a_run(const InversionOptions& options) {
   core::print("{}", lines_of(beside));
 }
 
-/// Refuses --temperature for a fluid whose density and viscosity do not follow from it.
+/// Rejects --temperature for a fluid whose density and viscosity do not depend on it.
 void refuse_idle_temperature(const core::Scene& scene) {
   if (!scene.fluid.density || !scene.fluid.viscosity) return;
   throw core::CaseError(std::vector{scene.places.problem(

@@ -1,4 +1,4 @@
-// What stands beside an inversion velocity: the mixed interval by force balance, and what others have found.
+// Values to compare with an inversion velocity: the mixed interval from the force balance, and published results.
 #pragma once
 
 #include <optional>
@@ -14,12 +14,12 @@ namespace polybed::app {
 using multiscale::InversionPoint;
 
 struct InversionBeside {
-  /// Equal bulk densities of the pure beds, and the balance of forces, the lower first; empty if either has no root.
+  /// Equal bulk densities of the pure beds, and the force balance, the lower first; empty if either has no root.
   std::optional<std::array<InversionPoint, 2>> mixed;
   std::vector<double> measured, simulated;  ///< m/s
 };
 
-/// \param law  of the case
+/// \param law  in the case
 [[nodiscard]] InversionBeside inversion_beside(const core::Scene& scene, const closures::DragLaw& law);
 
 /// "mixed_interval_m_s", "measured_m_s" and "simulated_m_s".

@@ -1,4 +1,4 @@
-// polybed inversion --scan: the inversion velocity by runs of one model or of both, a study of the Python package.
+// polybed inversion --scan: the inversion velocity from runs of one model or both, a study in the Python package.
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
@@ -20,15 +20,15 @@ struct ScanRange {
   double low = 0, high = 0;  ///< m/s
 };
 
-/// By force balance with the case's law; empty without a law or a root.
+/// From the force balance with the case's law; empty without a law or a root.
 std::optional<InversionPoint> force_balance(const core::Scene& scene) {
-  const BinaryBed bed = binary_bed(scene);  // refuses what is not of two species
+  const BinaryBed bed = binary_bed(scene);  // rejects other numbers of species
   if (!scene.effects.contains("drag")) return std::nullopt;
   const auto points = inversion_points(bed, relevance::drag_law_of(scene), "force_balance");
   return points.empty() ? std::nullopt : std::optional(points.back());
 }
 
-/// --from and --to, in their place a quarter below and above the force balance.
+/// --from and --to, by default a quarter below and above the force balance.
 ScanRange range_of(const InversionOptions& options, const std::optional<InversionPoint>& balance) {
   const auto end = [&](const std::string& text, const char* option, double factor) {
     if (text.empty()) {

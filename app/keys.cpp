@@ -1,4 +1,4 @@
-// The commands that show the table of keys and the registries: schema, explain, list.
+// The commands for the table of keys and the registries: schema, explain, list.
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
@@ -28,7 +28,7 @@ core::Json json_of(const core::Role& role) {
   return {{"role", role.name}, {"models", role.models}, {"slot", role.slot}, {"help", role.help}, {"laws", laws}};
 }
 
-/// Forms of drag laws and their published constants: what `polybed fit` begins from.
+/// Forms of drag laws with their published constants, the starting point of `polybed fit`.
 core::Json forms_of_drag() {
   core::Json forms = core::Json::object();
   for (const closures::DragForm& form : closures::drag_forms())
@@ -40,7 +40,7 @@ core::Json forms_of_drag() {
 void print_list_json(const std::vector<core::Role>& all) {
   core::Json roles = core::Json::array(), rules = core::Json::array();
   for (const core::Role& role : all) roles.push_back(json_of(role));
-  // models: that a scene must satisfy it for; another model can run a case that breaks one
+  // models: the models that need the rule; another one can run a case that breaks it
   const auto add = [&](std::span<const core::Rule> some, const char* models) {
     for (const core::Rule& rule : some)
       rules.push_back({{"message", rule.message}, {"models", models}, {"keys", rule.keys}});
@@ -124,7 +124,7 @@ void run_schema(bool json, bool markdown) {
 void run_list(bool json, bool details) {
   const std::vector<core::Role> roles = all_roles();
   if (json) return print_list_json(roles);
-  std::vector<std::string> notes;  // each is printed once, below, and marked by as many stars as its place
+  std::vector<std::string> notes;  // each is printed once, below, and marked by as many stars as its number
   const auto mark_of = [&notes](const std::string& note) -> std::string {
     if (note.empty()) return "";
     const auto at = std::find(notes.begin(), notes.end(), note);

@@ -1,4 +1,4 @@
-// The program: its command line, MPI around what needs it, and the only place that exits.
+// The program: its command line, MPI for commands that need it, and the only place that exits.
 #include <fmt/format.h>
 #include <mpi.h>
 
@@ -28,7 +28,7 @@ namespace polybed::app {
 
 namespace {
 
-/// How ranks end together.
+/// Agreement of the ranks on how they end.
 class MpiSession {
  public:
   MpiSession() {
@@ -42,8 +42,8 @@ class MpiSession {
 
   [[nodiscard]] bool first() const { return rank_ == 0; }
 
-  /// An error that all ranks have met is told once. One that the others do not know of would leave them waiting for
-  /// ever: after some seconds it is told by the rank that met it, which ends them all.
+  /// Reports an error common to all ranks once. The others would wait for ever for an error that they do not know:
+  /// after some seconds the rank with the error reports it and ends them all.
   void agree_on(Ending& ending) const {
     if (ranks_ == 1 || ending.code == 0) return;
     MPI_Request all_here = MPI_REQUEST_NULL;
@@ -73,14 +73,14 @@ Commands add_commands(CLI::App& app) {
   return commands;
 }
 
-/// The command line without what stands before the command.
+/// The command line without the options before the command.
 std::vector<std::string> words_from_command(const CLI::App& app, int argc, char** argv) {
   const std::string command = app.get_subcommands().front()->get_name();
   return {std::find(argv, argv + argc, command), argv + argc};
 }
 
-/// What is wrong with the place of the command: an unknown one is named with the nearest one, and -n stands before it.
-/// Empty: the command is known, or there is none.
+/// The error in the position of the command: suggests the nearest name for an unknown one, and -n must come before it.
+/// Empty if the command is known, or if there is none.
 std::string misplaced_command(const CLI::App& app, int argc, char** argv) {
   const std::string_view ranks = "-n";
   int at = 1;
@@ -108,7 +108,7 @@ std::string misplaced_command(const CLI::App& app, int argc, char** argv) {
                      near.empty() ? "; polybed --help lists them" : "; did you mean '" + near + "'?");
 }
 
-/// What was printed has to have arrived: a full disk shows only when the buffer is emptied.
+/// Checks that the output has arrived: a full disk shows only when the buffer is flushed.
 void flush_standard_output() {
   if (const int reason = core::refusal_of_answer(); reason != 0)
     throw core::FileError(fmt::format("standard output: cannot be written ({})", std::strerror(reason)));
@@ -123,8 +123,8 @@ void check_vector_width() {
   }
 }
 
-/// Does what the command line asks for and returns the code to end with; throws what the command throws. A line that
-/// cannot be read is told on standard error and is core::ExitCode::wrong_case.
+/// Runs the command line and returns the exit code; throws the command's errors. Reports an invalid line on standard
+/// error and returns core::ExitCode::wrong_case.
 /// \param mpi  started if the command needs it
 core::ExitCode run(int argc, char** argv, std::optional<MpiSession>& mpi) {
   check_vector_width();
@@ -137,7 +137,7 @@ core::ExitCode run(int argc, char** argv, std::optional<MpiSession>& mpi) {
   app.add_option("-n", ranks, "before the command: the number of ranks that share it, by mpirun")
       ->check(CLI::Range(1, 1000000));
   const Commands commands = add_commands(app);
-  if (argc == 1) {  // who types the name alone wants to see what there is
+  if (argc == 1) {  // the name alone lists the commands
     core::print(stderr, "{}\npolybed list cases: cases to start from; polybed COMMAND --help: its options\n",
                 app.help());
     return core::ExitCode::wrong_case;

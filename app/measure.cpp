@@ -1,5 +1,4 @@
-// polybed measure: what is read off the profiles of a run, and means over a window of it: one definition for every
-// study.
+// polybed measure: measures from the profiles of a run, and means over a time window: one definition for every study.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -29,7 +28,7 @@ using Numbers = std::vector<double>;
 
 // ---- reading
 
-/// In the order of the case, which the columns of the history keep.
+/// Names in the order of the case, as in the columns of the history.
 std::vector<std::string> species_of(const std::filesystem::path& run, const core::Profiles& profiles,
                                     const std::vector<std::string>& columns) {
   const std::string front = "phi_";
@@ -90,7 +89,7 @@ std::vector<MeasuredColumn> measured(const StoredRun& run) {
   return found;
 }
 
-/// The same after the time.
+/// The columns after the time.
 std::vector<MeasuredColumn> in_time(const StoredRun& run) {
   std::vector<MeasuredColumn> columns = measured(run);
   columns.insert(columns.begin(), {"time", "s", {}, "time_s", Values(run.time.begin(), run.time.end())});
@@ -132,7 +131,7 @@ Numbers numbers_of(const core::Json& value) {
   return found;
 }
 
-/// By its values without each of the groups of rows.
+/// From its values without each of the groups of rows.
 template <class Function>
 core::Json interval_of(std::size_t rows, const Function& function) {
   std::vector<measures::Value> values;
@@ -175,7 +174,7 @@ core::Json means_of_series(const core::Json& asked) {
   return found;
 }
 
-/// Where a window ends in a run, s. Throws CaseError where it would begin at that time or later.
+/// End of a window in a run, s. Throws CaseError if it would begin at that time or later.
 double end_of(const measures::Window& window, const StoredRun& run, const std::string& folder) {
   const Numbers& time = run.history.of("time_s");
   const double last = time.empty() ? 0 : time.back(), end = std::min(window.end, last);
@@ -189,8 +188,8 @@ void require_history(const StoredRun& run, const std::string& folder) {
   if (run.history.columns.empty()) throw core::FileError(folder + ": no history.csv, of which means are taken");
 }
 
-/// Adds the window of the means, the means of the run, and those of the other run with the distances from it. A window
-/// is of the time that both have, unless only its begin is given: then each run is measured to its own end.
+/// Adds the window of the means, the means of the run, and those of the other run with the distances from it. The
+/// window is within the time of both runs, unless only its begin is given: each run then extends to its own end.
 void add_means(core::Json& json, const MeasureOptions& options, const StoredRun& run, const StoredRun* beside) {
   std::vector<const StoredRun*> runs{&run};
   if (beside != nullptr) runs.push_back(beside);
@@ -214,7 +213,7 @@ void add_means(core::Json& json, const MeasureOptions& options, const StoredRun&
   json["distances"] = json_of(measures::distances(run, *beside, window, options.slabs), false);
 }
 
-// ---- telling
+// ---- output
 
 void print_json(const StoredRun& run, const MeasureOptions& options) {
   core::Json json{{"time_s", run.time}, {"measures", core::Json::object()}};

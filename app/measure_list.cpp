@@ -1,4 +1,4 @@
-// polybed measure --list: the tables of measures themselves.
+// polybed measure --list: the tables of measures.
 
 #include <fmt/format.h>
 

@@ -14,7 +14,7 @@ namespace polybed::app {
 
 namespace {
 
-/// A column as people read it: words of its name, a unit with the prefix that suits its greatest number, entries.
+/// A column for people: words from its name, a unit with the prefix for its greatest number, entries.
 struct ShownColumn {
   std::vector<std::string> words;
   std::string unit;
@@ -27,7 +27,7 @@ std::string in_words(std::string name) {
   return name;
 }
 
-/// A factor and the unit with the prefix that suits the greatest number of a column.
+/// Factor and unit with the prefix for the greatest number in a column.
 std::pair<double, std::string> shown_unit(const MeasuredColumn& column) {
   double greatest = 0;
   for (const measures::Value& value : column.values) greatest = std::max(greatest, std::abs(value.value_or(0)));
@@ -40,7 +40,7 @@ std::pair<double, std::string> shown_unit(const MeasuredColumn& column) {
   return {scale, column.unit == "1" ? "" : prefix + column.unit};
 }
 
-/// Columns that a text takes on the screen: µ has two bytes.
+/// Width of a text on the screen: µ has two bytes.
 std::size_t columns_on_screen(const std::string& text) {
   return text.size() - (text.find("µ") != std::string::npos ? 1 : 0);
 }
@@ -77,9 +77,9 @@ void print_block(const std::vector<const ShownColumn*>& columns) {
     print_line([row](const ShownColumn& column) { return column.entries[row]; });
 }
 
-/// A measure in time.
+/// A measure over time.
 struct Series {
-  std::vector<double> time, value;  ///< s; NaN: there was nothing to measure
+  std::vector<double> time, value;  ///< s; NaN: no value
 };
 
 Series series_of(const MeasuredColumn& column, const measures::StoredRun& run) {

@@ -9,7 +9,7 @@
 
 namespace polybed::app {
 
-/// A measure of each of the profiles.
+/// One measure, for each profile.
 struct MeasuredColumn {
   std::string name, unit, help, heading;
   std::vector<measures::Value> values;
@@ -18,9 +18,9 @@ struct MeasuredColumn {
 /// All values, in blocks of as many columns as fit. Each block repeats the first column, the time.
 void print_table(const std::vector<MeasuredColumn>& columns);
 
-/// Of each measure of a run its mean over the last quarter with the interval, and its value at the end: those of its
-/// result card, by the rows of the history where these have the measure, else by the stored profiles.
-/// \param run  with beds, of which the columns are
+/// For each measure of a run its mean over the last quarter with the interval, and its final value, as on its result
+/// card: from the rows of the history if they contain the measure, else from the stored profiles.
+/// \param run  with the beds of the columns
 void print_summary(const measures::StoredRun& run, const std::vector<MeasuredColumn>& columns);
 
 }  // namespace polybed::app

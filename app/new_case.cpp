@@ -1,4 +1,4 @@
-// polybed new and polybed list cases: the cases that come with the program.
+// polybed new and polybed list cases: the shipped cases.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -21,15 +21,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A case that comes with the program.
+/// A shipped case.
 struct KnownCase {
   std::string name, title;
-  std::string takes;  ///< "5 s: polybed tfm"; empty: not said
+  std::string takes;  ///< "5 s: polybed tfm"; empty: unknown
   fs::path folder;
   bool is_template = false;
 };
 
-/// What follows the first line that begins so, without quotes; empty if there is none.
+/// The rest of the first line with this beginning, without quotes; empty if there is none.
 std::string after(const std::string& text, const std::string& front) {
   const std::string lines = "\n" + text;
   const std::size_t at = lines.find("\n" + front);
@@ -77,12 +77,12 @@ KnownCase case_named(const std::string& name) {
   for (const KnownCase& one : all) names.push_back(one.name);
   std::string near = core::nearest_name(name, names);
   for (const std::string& one : names)
-    if (near.empty() && one.find(name) != std::string::npos) near = one;  // "liquid" of "liquid-bed"
+    if (near.empty() && one.find(name) != std::string::npos) near = one;  // "liquid" in "liquid-bed"
   throw core::CaseError(
       fmt::format("--from {}: no such template{}", name, near.empty() ? templates : "; did you mean '" + near + "'?"));
 }
 
-/// Files that a case reads; what describes or evaluates it stays where it is.
+/// Files that a case reads; descriptions and evaluations are not copied.
 bool belongs_to_case(const fs::path& file) {
   constexpr std::array<std::string_view, 3> kinds{".toml", ".csv", ".h5"};
   return std::find(kinds.begin(), kinds.end(), file.extension().string()) != kinds.end();

@@ -1,4 +1,4 @@
-// polybed plot: pictures of a finished or a running run, drawn by the Python package.
+// polybed plot: pictures of a finished or active run, drawn by the Python package.
 #include <fmt/format.h>
 
 #include "app/commands.hpp"
@@ -13,7 +13,7 @@ namespace polybed::app {
 
 namespace {
 
-/// Options of the pictures of a run.
+/// Options for pictures of a run.
 struct PlotOptions {
   std::filesystem::path run;     ///< a run directory, or a case that has one in runs/
   std::string what = "all";      ///< overview | fields | particles | profiles | history | animation, by commas; or all
@@ -24,7 +24,7 @@ struct PlotOptions {
   bool quiet = false, json = false;
 };
 
-/// Options of the page that follows a run.
+/// Options for the page that follows a run.
 struct WatchOptions {
   std::filesystem::path run;  ///< a run directory, or a case that has one in runs/
   int port = 0;               ///< on the loopback address; 0: any that is free
@@ -37,8 +37,8 @@ bool is_run(const fs::path& directory) {
          fs::exists(directory / "particles.h5");
 }
 
-/// The run that a path stands for: a run directory, or the run of a case file or a case's folder in runs/, that of the
-/// continuum if there are two.
+/// The run for a path: a run directory, or the run of a case file or a case's folder in runs/, the continuum's if there
+/// are two.
 fs::path run_of(const fs::path& given) {
   if (!fs::exists(given)) throw core::FileError(fmt::format("{}: no such run directory or case", given.string()));
   if (is_run(given)) return given;
@@ -83,15 +83,14 @@ PythonEnd draw(const PlotOptions& options) {
   return run_python("polybed.cost.picture", words, PythonOutput::show);
 }
 
-/// What a module that was to make something of a run has ended with. Throws core::FileError if it could not do its
-/// work.
+/// Exit code after a module's work on a run. Throws core::FileError if it failed.
 core::ExitCode code_of(const PythonEnd& end, const PlotOptions& options, const std::string& what) {
   if (!end.not_started.empty())
     throw core::FileError(fmt::format("no {}: {}; {}", what, end.not_started, python_packages));
   if (end.code > 128 && end.code != int(core::ExitCode::stopped))
     throw core::FileError(fmt::format("{}: no {}: Python was ended by signal {}; a file in it may be damaged",
                                       options.run.string(), what, end.code - 128));
-  switch (end.code) {  // the module has said what is wrong
+  switch (end.code) {  // the module has reported the error
     case 0:
       return core::ExitCode::done;
     case int(core::ExitCode::wrong_case):

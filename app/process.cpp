@@ -18,8 +18,8 @@ int exit_code(core::ExitCode code) { return static_cast<int>(code); }
 
 Ending failed(core::ExitCode code, const std::string& message) { return {exit_code(code), message}; }
 
-/// Gives standard streams that are closed a file of their own: else the next file that is opened takes the place of
-/// one and receives the messages. An answer that cannot be written there is reported as an error.
+/// Opens a file for closed standard streams; otherwise the next opened file would replace one and receive the messages.
+/// An answer that cannot be written there is reported as an error.
 void open_closed_streams() {
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
     if (::fcntl(stream, F_GETFD) < 0) (void)::open("/dev/null", stream == STDERR_FILENO ? O_WRONLY : O_RDONLY);
@@ -30,7 +30,7 @@ void open_closed_streams() {
 Ending guarded(const std::function<core::ExitCode()>& work) {
   open_closed_streams();
   std::signal(SIGXFSZ, SIG_IGN);  // report a limit on file sizes like a full disk
-  std::signal(SIGPIPE, SIG_IGN);  // a reader that has gone, likewise
+  std::signal(SIGPIPE, SIG_IGN);  // likewise for a closed reader
   try {
     core::search_absolute_path();
     return {exit_code(work()), ""};
@@ -46,7 +46,7 @@ Ending guarded(const std::function<core::ExitCode()>& work) {
     return failed(core::ExitCode::stopped, error.what());
   } catch (const std::bad_alloc&) {
     return failed(core::ExitCode::wrong_case, "not enough memory: choose fewer column.cells");
-  } catch (const std::system_error& error) {  // a file system or standard output
+  } catch (const std::system_error& error) {  // from a file system or standard output
     return failed(core::ExitCode::file, error.what());
   } catch (const std::exception& error) {
     return failed(core::ExitCode::numerics, error.what());

@@ -27,7 +27,7 @@ namespace polybed::app {
 
 namespace {
 
-/// Options of drag data from resolved flow.
+/// Options for drag data from resolved flow.
 struct ResolveOptions : CaseOptions {
   std::filesystem::path output;  ///< empty: runs/<case name>-resolve
   bool resume = false, force = false, quiet = false, estimate = false;
@@ -35,16 +35,16 @@ struct ResolveOptions : CaseOptions {
 
 namespace fs = std::filesystem;
 
-/// Of a box that is not steady yet.
+/// For a box that is not steady yet.
 fs::path file_of_box(const fs::path& directory, const std::string& name) { return directory / ("box-" + name + ".h5"); }
 
 void remove_kept_boxes(const fs::path& directory) {
-  std::error_code none;  // a file that stays is of no harm
+  std::error_code none;  // a file that stays does no harm
   for (const fs::directory_entry& entry : fs::directory_iterator(directory, none))
     if (entry.path().filename().string().starts_with("box-")) fs::remove(entry.path(), none);
 }
 
-/// Laws of contact that the case leaves open are chosen for free spheres alone.
+/// Chooses contact laws that the case leaves open only for free spheres.
 core::Scene read_boxes(const ResolveOptions& options) {
   const core::Scene scene = read_case(options.case_path, options.overrides, {});
   if (scene.resolve.voidage.empty())
@@ -55,12 +55,12 @@ core::Scene read_boxes(const ResolveOptions& options) {
                                                           : scene;
 }
 
-/// \param free  the Reynolds number follows
+/// \param free  the Reynolds number is a result
 std::string point_text(double voidage, double reynolds, bool free) {
   return fmt::format("eps {:g}", voidage) + (free ? "" : fmt::format(", Re {:g}", reynolds));
 }
 
-/// Rows of the points, from the rate that the coarsest box of the first one reaches on one core.
+/// Rows of the points, from the speed of the first one's coarsest box on one core.
 void estimate_resolve(const ResolveOptions& options) {
   const core::Scene scene = read_boxes(options);
   const core::Resolve& plan = scene.resolve;
@@ -106,7 +106,7 @@ class ResolveRun {
     core::on_first(ranks_.get(), [&] { take_directory(); });
   }
 
-  /// Boxes are independent: each rank runs its own, and all learn the results at the end.
+  /// Boxes are independent: each rank runs its own, and all receive the results at the end.
   void run() {
     if (first_ && !options_.json) core::print("{}\n", row_header(scene_));
     table_ = row_header(scene_) + "\n";
@@ -127,7 +127,7 @@ class ResolveRun {
   }
 
  private:
-  /// Boxes that a run before has finished are read; those of this one are added behind them.
+  /// Reads the boxes finished by an earlier run; new ones are appended.
   void take_directory() {
     lock_.emplace(directory_);
     const fs::path path = directory_ / "boxes.csv";
@@ -147,7 +147,7 @@ class ResolveRun {
     core::write_atomically(path, kept, core::Flush::content);
   }
 
-  /// Only rows that are whole and have their check count: a full disk cuts the last number of a row.
+  /// Only complete rows with a valid check count: a full disk can cut the last number of a row.
   void read_finished(const fs::path& path, std::string& kept) {
     const std::string text = core::read_text(path);
     std::size_t lost = text.ends_with('\n') || text.empty() ? 0 : 1;
@@ -173,7 +173,7 @@ class ResolveRun {
     int rank = 0;
   };
 
-  /// All boxes in the order of the rows, the largest first to the rank that has least to do.
+  /// Distributes all boxes in the order of the rows, the largest first to the rank with the least work.
   void share_boxes() {
     const core::Resolve& plan = scene_.resolve;
     for (const double voidage : plan.voidage)
@@ -219,7 +219,7 @@ class ResolveRun {
     report(point, drag);
   }
 
-  /// Those whose boxes are finished, after those that are written.
+  /// Writes rows whose boxes are finished, after those already written.
   void write_rows() {
     const std::size_t parts = passed(scene_).size(), of_packing = std::size_t(scene_.resolve.grids) * parts;
     const std::size_t of_row = std::size_t(scene_.resolve.packings) * of_packing;
@@ -239,7 +239,7 @@ class ResolveRun {
     }
   }
 
-  /// At most every few seconds.
+  /// Prints at most every few seconds.
   bool say(const ResolvePoint& point, double steps, double change) {
     const auto now = std::chrono::steady_clock::now();
     if (!options_.quiet && now - said_ > std::chrono::seconds(5)) {
@@ -279,12 +279,12 @@ class ResolveRun {
   fs::path directory_;
   std::optional<core::OutputDirectory> lock_;
   std::vector<Box> boxes_;
-  std::map<std::string, std::string> finished_;  ///< text of each box; empty of one that is not
+  std::map<std::string, std::string> finished_;  ///< text of each box; empty for an unfinished one
   SpherePacking spheres_;
   std::pair<double, int> spheres_of_{0, -1};  ///< voidage and packing
-  std::size_t rows_ = 0;                      ///< written
+  std::size_t rows_ = 0;                      ///< number written
   std::string table_;
-  std::chrono::steady_clock::time_point said_;  ///< long ago, so that the first line comes at once
+  std::chrono::steady_clock::time_point said_;  ///< initially long ago, so that the first line comes at once
   double done_ = 0, seconds_ = 0;
 };
 

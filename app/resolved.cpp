@@ -1,5 +1,4 @@
-// polybed check --resolved: the case as a record of its run has it, and whether each model runs it; nothing is
-// estimated.
+// polybed check --resolved: the case as in its run's record, and whether each model runs it, without an estimate.
 #include <nlohmann/json.hpp>
 
 #include "app/run_directory.hpp"
@@ -13,8 +12,7 @@ namespace polybed::app {
 
 namespace {
 
-/// Hash of a case without what the runs of a scan for the inversion velocity differ in: velocity, start, end and
-/// output.
+/// Hash of a case without the keys that differ between runs of an inversion scan: velocity, start, end and output.
 std::string hash_of_scanned(core::Scene scene) {
   scene.inlet.superficial_velocity = {};
   scene.bed.start = {};

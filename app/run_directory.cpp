@@ -31,7 +31,7 @@ core::Checkpoint read_newest_checkpoint(const fs::path& directory) {
   }
 }
 
-/// What must be the same for a checkpoint to fit: the case without its end and its output times.
+/// The part of a case that must agree with a checkpoint: everything except its end and its output times.
 std::string physics_hash(core::Scene scene) {
   scene.run.until = 1;
   scene.output = {};
@@ -39,14 +39,14 @@ std::string physics_hash(core::Scene scene) {
   return core::case_hash(scene);
 }
 
-/// A scene without the effects that the case of a checkpoint has not and that may be added to its run.
+/// A scene without effects that the checkpoint's case lacks and that can be added to its run.
 core::Scene without_added(core::Scene scene, const std::string& before, const std::string& model) {
   const core::Scene then = core::parse_case(before, "checkpoint", {}, all_roles(), size_classes);
   std::erase_if(scene.effects, [&](const auto& entry) {
     const relevance::MenuEntry* effect = find_entry(entry.first);
     return !then.effects.contains(entry.first) && effect != nullptr && can_be_added(*effect, model);
   });
-  scene.chooser = then.chooser;  // it has chosen: what it chose is compared
+  scene.chooser = then.chooser;  // its choice is made and is compared
   return scene;
 }
 
@@ -63,7 +63,7 @@ core::Scene read_scene(const RunOptions& options, const Models& models) {
   try {  // checkpoints are part of the result: they do not move with --until
     scene.output.checkpoint_every =
         read_chosen_case(options.case_path, options.overrides, models).output.checkpoint_every;
-  } catch (const core::CaseError&) {  // of a case that --until completes
+  } catch (const core::CaseError&) {  // a case that needs --until
   }
   return scene;
 }
@@ -83,7 +83,7 @@ std::unique_ptr<const core::OutputDirectory> take_directory(const fs::path& dire
     throw core::FileError(
         fmt::format("{}: no checkpoint to resume from; leave out --resume to begin anew", directory.string()));
   auto taken = std::make_unique<const core::OutputDirectory>(directory);
-  // A run that was stopped while its bed settled has written nothing but its record.
+  // A run stopped while its bed settled has written only its record.
   const bool began = has_checkpoint(directory) || fs::exists(directory / "history.csv");
   if (fs::exists(directory / "run.json") && began && !options.resume && !options.force)
     throw core::CaseError(

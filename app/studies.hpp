@@ -1,4 +1,4 @@
-// The program calls the studies of both models by their plain names.
+// Studies of both models, which the program calls by their plain names.
 #pragma once
 
 namespace polybed::multiscale {}

@@ -1,4 +1,4 @@
-// Requests to the studies of the Python package, the options of a command as a JSON object, and what becomes a study.
+// Requests to the studies in the Python package: the options of a command as a JSON object, and the commands for it.
 #pragma once
 
 #include <string>
@@ -11,13 +11,13 @@
 
 namespace polybed::app {
 
-/// The options of the runs that the study makes.
+/// Options for the study's runs.
 /// \param kind  of the study's folder: runs/<case name>-<kind> unless -o names another
 [[nodiscard]] core::Json common_request(const RunOptions& options, const std::string& kind);
 
-/// Becomes the study that finds the answer of polybed inversion or tfm with the case's drag law and with the law moved
-/// within its band. Throws core::CaseError if the case has no drag law.
-/// \param kind  "inversion" or "tfm"  \param models  that run the case  \param method  of the inversion
+/// Becomes the study that repeats polybed inversion or tfm with the case's drag law and with the law moved within its
+/// band. Throws core::CaseError if the case has no drag law.
+/// \param kind  "inversion" or "tfm"  \param models  that run the case  \param method  for the inversion
 [[noreturn]] void run_closure_uncertainty(const RunOptions& options, const std::string& kind, const Models& models,
                                           const std::string& method = "");
 
@@ -25,7 +25,7 @@ namespace polybed::app {
 /// in `plus` and `minus` of the run's directory, and writes stress_uncertainty.json. Throws as require_table does.
 [[noreturn]] void run_stress_uncertainty(const RunOptions& options);
 
-/// Throws core::CaseError if the case has no table to move.
+/// Throws core::CaseError if the case has no table for it.
 void require_table(const core::Scene& scene);
 
 }  // namespace polybed::app

@@ -1,4 +1,4 @@
-// The words that a run or a study prints beside keys, roles, laws and measures, for polybed explain.
+// Words in the output of a run or a study other than keys, roles, laws and measures, for polybed explain.
 #include "app/explain.hpp"
 
 namespace polybed::app {

@@ -60,7 +60,7 @@ class TfmRun final : public CaseRun {
     core::on_all(ranks_.get(), [&] { core::read_parts(path, model_.checkpoint_parts(), checkpoint); });
   }
 
-  /// Mass of each species at the start of the run, kg.
+  /// Initial mass of each species, kg.
   [[nodiscard]] std::vector<double> initial_mass_of(const core::Checkpoint& checkpoint) const {
     std::vector<double> mass = checkpoint.array("initial_mass");
     if (mass.size() != initial_mass_.size() || std::any_of(mass.begin(), mass.end(), [](double m) { return m < 0; }))
@@ -83,7 +83,7 @@ class TfmRun final : public CaseRun {
     if (monitor_ && past.contains("monitor")) monitor_->recall(past["monitor"], ranks_.get());
     const core::Json& limits = core::member_of(past, "limits");
     for (const auto& [name, steps] : limits.items()) limits_[name] = core::count_of(steps);
-    // What this process has evaluated so far, the one before has counted. Unsigned numbers come right again.
+    // The earlier process's counts include this one's so far. Unsigned differences wrap back correctly.
     const std::vector<core::Json>& before = core::array_of(core::member_of(past, "closures"));
     closures_before_ = closures_of(model_);
     for (std::size_t n = 0; n < closures_before_.size(); ++n) {
@@ -138,7 +138,7 @@ class TfmRun final : public CaseRun {
   }
 
   std::string advice() override {
-    constexpr double least_met = 1e-8;  // tolerances below it drown in the rounding of a stiff bed
+    constexpr double least_met = 1e-8;  // tolerances below it are lost in the rounding of a stiff bed
     std::string steps;
     for (const tfm::StepLine& step : observers_->last_steps())
       steps += fmt::format("{:14.6g} {:12.3g}  {}\n", step.time, step.step, step.limited_by);
@@ -165,7 +165,7 @@ class TfmRun final : public CaseRun {
                             }});
   }
 
-  /// The most frequent of what limited the steps; the ends that the clock sets are no limits.
+  /// The most frequent limit of the steps; ends set by the clock do not count.
   [[nodiscard]] std::string limited_by() const override {
     constexpr std::string_view by_clock = "event";
     std::uint64_t steps = 0;
@@ -226,12 +226,12 @@ class TfmRun final : public CaseRun {
   tfm::Model model_;
   std::optional<tfm::EvennessWatch> even_ =
       tfm::EvennessWatch::of(model_.constants().grid, fluid::Ramp(scene_.inlet.superficial_velocity).greatest());
-  std::vector<std::string> evenness_;                              ///< warning of the last record
-  std::unique_ptr<Monitor> monitor_ = Monitor::of(scene_, "tfm");  ///< null: nothing is watched
+  std::vector<std::string> evenness_;                              ///< warning in the last record
+  std::unique_ptr<Monitor> monitor_ = Monitor::of(scene_, "tfm");  ///< null: no monitor
   std::vector<double> initial_mass_;
   std::optional<tfm::Observers> observers_;
-  std::map<std::string, std::uint64_t> limits_;   ///< steps by what limited them
-  std::vector<tfm::ClosureUse> closures_before_;  ///< of a run that goes on
+  std::map<std::string, std::uint64_t> limits_;   ///< number of steps by their limit
+  std::vector<tfm::ClosureUse> closures_before_;  ///< by earlier processes
   RunTotals totals_;
 };
 
@@ -243,7 +243,7 @@ void run_tfm(const RunOptions& options) {
   const core::Scene scene = read_scene(options, {&rules_of_tfm()});
   const fs::path directory = run_directory(options, "tfm");
   const std::shared_ptr<const core::Ranks> ranks = core::Ranks::of_program();
-  std::unique_ptr<const core::OutputDirectory> taken;  // by the first rank
+  std::unique_ptr<const core::OutputDirectory> taken;  // on the first rank
   core::on_first(ranks.get(), [&] {
     require_memory(scene);
     taken = take_directory(directory, options);
