@@ -42,7 +42,7 @@ class MpiSession {
 
   [[nodiscard]] bool first() const { return rank_ == 0; }
 
-  /// Reports an error common to all ranks once. The others would wait for ever for an error that they do not know:
+  /// Reports an error common to all ranks once. The others would wait forever for an error that they do not know:
   /// after some seconds the rank with the error reports it and ends them all.
   void agree_on(Ending& ending) const {
     if (ranks_ == 1 || ending.code == 0) return;

@@ -21,7 +21,7 @@ class SphereNeighbours {
  public:
   static constexpr double most_fraction = 0.74;  ///< A is constant above it: no bed is denser
 
-  /// \param fraction  phi_j >= 0; their sum may be 0  \param diameter  m
+  /// \param fraction  phi_j >= 0; their sum can be 0  \param diameter  m
   SphereNeighbours(std::span<const double> fraction, std::span<const double> diameter);
 
   /// T_ij: spheres of species j around one of i, itself included, in excess of rho_j V, in a volume V that is wide

@@ -1,4 +1,4 @@
-// Search path of other programs: never the working directory, which may contain a stranger's files.
+// Search path of other programs: never the working directory, which can contain a stranger's files.
 #pragma once
 
 #include <string>

@@ -20,7 +20,7 @@ namespace polybed::dem {
 /// constant rolling moment that oscillates at rest, or a film's force that stops a particle within a few steps), the
 /// work of torque and film on the prediction error is also of first order, and is counted.
 ///
-/// Of the normal force only the dashpot's part counts, computed from its own law instead of as the remainder, so that
+/// Only the dashpot's part of the normal force counts, computed from its own law instead of as the remainder, so that
 /// it cannot hide an integration error. Of the tangential force: the work minus the stored energy of the spring;
 /// likewise for rolling friction, with the relative spin. An attraction that is a function of the distance loses
 /// nothing; the loss of a contact that jumps together is counted at the jump.

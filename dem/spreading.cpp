@@ -1,4 +1,4 @@
-// Random initial places of particles, as even over large distances as those of hard spheres.
+// Random initial places of particles, as even over large distances as hard spheres.
 #include "dem/hard_spheres.hpp"
 
 #include <algorithm>

@@ -41,7 +41,7 @@ class Openings {
   [[nodiscard]] bool in_sides() const;
   /// A field of zeros on the faces of the axes with passages; empty on others.
   [[nodiscard]] core::FaceField make_passed() const;
-  /// Sets velocities on fed faces to the feed's, and on faces of a discharge to those of the outgoing mixture.
+  /// Sets velocities on fed faces to the feed's, and on faces of a discharge to the outgoing mixture's.
   void set_velocities(double t, Interphase& solids) const;
   /// Sets ghost fractions beyond fed faces so that the mean on the face is the feed's, F_j/U_j; in sides also the
   /// ghosts of the velocities.

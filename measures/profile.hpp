@@ -12,7 +12,7 @@ namespace polybed::measures {
 struct Profile {
   double slab = 0;                            ///< thickness, m
   std::vector<std::vector<double>> fraction;  ///< phi_j, [species][slab]
-  std::vector<double> pressure;               ///< net p, Pa; may be empty
+  std::vector<double> pressure;               ///< net p, Pa; can be empty
   std::vector<double> areas = {};             ///< of the slabs, m2; empty: all equal
 
   [[nodiscard]] std::size_t slabs() const { return fraction.empty() ? 0 : fraction.front().size(); }

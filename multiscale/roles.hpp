@@ -12,7 +12,7 @@
 
 namespace polybed::multiscale {
 
-/// The effects of the continuum model, then those of the particle model alone.
+/// The effects of the continuum model, then the particle model's own.
 [[nodiscard]] const relevance::Menu& menu();
 
 /// The entry of a role; null if there is none.

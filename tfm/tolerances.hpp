@@ -39,7 +39,7 @@ struct Tolerances {
                                        double velocity_scale, double pressure_scale);
 
 /// For a bed that can come to rest, as core::TolerancesAt requires: the tolerances of its velocities depend on its
-/// speed. With constant ones a settled bed creeps within them for ever.
+/// speed. With constant ones a settled bed creeps within them forever.
 class RestingTolerances {
  public:
   /// \param moving  absolute tolerances for a moving bed  \param scale  its velocity, m/s

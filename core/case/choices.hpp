@@ -79,7 +79,7 @@ constexpr std::array<std::string_view, 2> names(FractionFlux) { return {"limited
 enum class Momentum { automatic, conservative, conservative_limited };
 constexpr std::array<std::string_view, 3> names(Momentum) { return {"auto", "conservative", "conservative_limited"}; }
 
-/// The momentum equations that contain the pressure gradient: those of all phases or the fluid's alone.
+/// The momentum equations that contain the pressure gradient: of all phases or of the fluid alone.
 enum class PressureForm { A, B };
 constexpr std::array<std::string_view, 2> names(PressureForm) { return {"A", "B"}; }
 

@@ -23,7 +23,7 @@ inline constexpr const char* other_roles = "others";
 /// the file cannot be read.
 /// \param overrides  "key=value" each, e.g. "inlet.superficial_velocity=37 mm/s",
 /// "species.fine.diameter=1 mm"
-/// \param roles      what [effects] may name
+/// \param roles      valid roles in [effects]
 /// \param classes    rule that turns a size distribution into species; a case without it must have no distribution
 /// \param rules      further rules of the scene and its models besides case_rules(); all are reported together
 /// \param others     how roles are set that the case does not name
@@ -31,7 +31,7 @@ inline constexpr const char* other_roles = "others";
                               std::span<const Role> roles, const ClassRule& classes = {}, const Rulebook& rules = {},
                               OtherRoles others = OtherRoles::off);
 
-/// The same from text; `name` stands for the file in messages.
+/// The same from text; `name` is the file's in messages.
 [[nodiscard]] Scene parse_case(std::string_view text, const std::string& name, std::span<const std::string> overrides,
                                std::span<const Role> roles, const ClassRule& classes = {}, const Rulebook& rules = {},
                                OtherRoles others = OtherRoles::off);

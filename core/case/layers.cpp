@@ -29,7 +29,7 @@ double settled_fraction_of(const Scene& scene, const Layer& layer) {
   return layer.solids_fraction.value_or(scene.bed.solids_fraction);
 }
 
-/// Height of a layer in an even column: in a tapered one layers are as wide as it is.
+/// Height of a layer in a uniform column; in a tapered one layers are as wide as the column.
 double even_height_of(const Scene& scene, std::size_t n) {
   double low = 0;
   for (std::size_t m = 0; m < n && scene.column.is_tapered(); ++m) low += scene.layers[m].height;

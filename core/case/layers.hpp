@@ -20,7 +20,7 @@ struct BedPart {
 };
 
 /// The parts of a bed at its start, from the bottom up: the layers of [[layer]] if the start is "layered" or
-/// "checkpoint"; without [[layer]], those of bed.layer if it is "layered"; otherwise one part, the whole bed.
+/// "checkpoint"; without [[layer]], the groups of bed.layer if it is "layered"; otherwise one part, the whole bed.
 /// \pre the amount is known: bed.particles, or bed.volume_share of every species
 [[nodiscard]] std::vector<BedPart> start_parts(const Scene& scene);
 

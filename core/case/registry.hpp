@@ -9,7 +9,7 @@ namespace polybed::core {
 
 struct Law {
   std::string name;         ///< as in the case file
-  std::string help;         ///< what it is and where it is valid, in plain words; at most 78 columns
+  std::string help;         ///< description and range of validity, in plain words; at most 78 columns
   std::string source = {};  ///< equation and reference, for `polybed explain`
   std::string note = {};    ///< text common to several laws of a role; `polybed list` prints it once
 };
@@ -24,7 +24,7 @@ struct Role {
   std::string models;               ///< "tfm", "dem" or "tfm, dem"
   std::string slot;                 ///< place in the discrete equation: Exchange, Stress, Pair ...
   std::string help;                 ///< one line
-  std::string absent;               ///< what the other model does without it, e.g. "particles have contacts instead"
+  std::string absent;               ///< replacement in the other model, e.g. "particles have contacts instead"
   std::vector<Law> laws;            ///< "none" is always allowed and need not be listed
   std::vector<Advice> advice = {};  ///< best first; empty: the properties of the laws decide
 };

@@ -118,7 +118,7 @@ struct Bed {
   double static_height = 0;              ///< m, of the settled bed
   double solids_fraction = 0;            ///< of the settled bed
   std::optional<double> start_fraction;  ///< as the case gives it
-  double start_solids_fraction = 0;      ///< of the bed at the start; the mass is that of the settled bed
+  double start_solids_fraction = 0;      ///< of the starting bed; its mass equals the settled bed's
   std::vector<std::int64_t> particles;   ///< numbers of particles instead of static_height; else empty
   Start start;
   /// Layer of each species for the start "layered" without [[layer]], from the bottom; empty: one layer per species.

@@ -157,7 +157,7 @@ KeyOf<S> shared(Part Scene::*part, const KeyOf<Part>& inner) {
 /// A value as text that a case could give, with the unit of its key; empty if there is nothing.
 [[nodiscard]] std::string text_of(const Value& value, const Dimension& dimension);
 
-/// \param at  (scene, index) -> the struct, of a scene that may be constant
+/// \param at  (scene, index) -> the struct, for a scene that can be constant
 template <class S, class At>
 Table table_of(std::string_view name, bool array, const At& at, std::initializer_list<KeyOf<S>> keys) {
   Table made{name, array, {}, [](const Scene&) { return std::size_t(1); }, {}};

@@ -40,7 +40,7 @@ class PoissonSolver {
   PoissonSolver(PoissonSolver&&) noexcept;
   PoissonSolver& operator=(PoissonSolver&&) noexcept;
 
-  /// \param coefficient  B on faces, >= 0  \param shift  on cells, >= 0; may be empty
+  /// \param coefficient  B on faces, >= 0  \param shift  on cells, >= 0; can be empty
   /// \param source       on cells          \param p      the first guess, then the solution (owned cells)
   /// \param tolerance    of the residual relative to the source's norm
   PoissonResult solve(const FaceSpans& coefficient, std::span<const double> shift, const Field& source, Field& p,

@@ -67,7 +67,7 @@ class Disk {
  private:
   /// HDF5's callbacks, and its data for an open file.
   struct Driver {
-    H5FD_t of_hdf5;  // HDF5 uses the address of the whole as that of its first member
+    H5FD_t of_hdf5;  // HDF5 uses the address of the whole as its first member's
     Disk* disk;
     haddr_t size;  ///< allocated by HDF5
     haddr_t end;   ///< end of the file

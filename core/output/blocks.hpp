@@ -3,7 +3,7 @@
 //
 // The first rank builds the file without these numbers, in memory, and claims room for them on the disk. Then all open
 // it through MPI-IO and write their blocks with collective calls. Room is claimed because HDF5's collective calls wait
-// for ever for a rank that left with an error, and a full disk is the most likely error.
+// forever for a rank that left with an error, and a full disk is the most likely error.
 #pragma once
 
 #include <filesystem>

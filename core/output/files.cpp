@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Throws for anything other than a regular file, as it may never end.
+/// Throws for anything other than a regular file, as others can be endless.
 void require_regular(const std::string& deed, const fs::path& path, const struct stat& status) {
   if (S_ISDIR(status.st_mode)) cannot(deed, path, EISDIR);
   if (!S_ISREG(status.st_mode))

@@ -81,7 +81,7 @@ void append_to_file(const std::filesystem::path& path, std::span<const std::byte
 /// Longest file that is read as a whole unless a reader gives another limit.
 inline constexpr std::size_t longest_file = 4'000'000'000;
 
-/// Size of a file, bytes. Throws FileError if it does not exist, is a pipe or a device, which may never end, or is
+/// Size of a file, bytes. Throws FileError if it does not exist, is a pipe or a device, which can be endless, or is
 /// longer than `most`. Every reader of a file that a user names calls this first.
 [[nodiscard]] std::size_t bytes_of_file(const std::filesystem::path& path, std::size_t most = SIZE_MAX);
 

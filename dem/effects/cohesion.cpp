@@ -51,7 +51,7 @@ void van_der_waals(ContactBatch& b, const Row& radius, double hamaker, double le
 /// Share of the greatest attraction at which the van der Waals force is cut off.
 constexpr double pull_at_reach = 1e-6;
 
-/// A constant attraction 2 pi W R* during contact: the memory is like that of a neck that breaks at once.
+/// A constant attraction 2 pi W R* during contact: the memory acts as for a neck that breaks at once.
 class DmtCohesion final : public CohesionLaw {
  public:
   /// \param work_of_adhesion  W, J/m2   \param place  index of its memory in a batch

@@ -21,7 +21,7 @@ using std::numbers::pi;
 /// Number of windows after which a flow that is still changing ends.
 constexpr double most_windows = 200;
 /// Change of the drag from one window to the next at which a flow is steady: in single precision round-off alone can
-/// keep it above 1e-5 for ever (1.3e-5 in 80 windows of one box of 88 spheres at Re 10).
+/// keep it above 1e-5 forever (1.3e-5 in 80 windows of one box of 88 spheres at Re 10).
 template <class Real>
 constexpr double steady_change = std::is_same_v<Real, float> ? 1e-4 : 1e-5;
 

@@ -58,8 +58,8 @@ struct BoxPlan {
 };
 [[nodiscard]] BoxPlan plan_of(const core::Scene& scene, const ResolvePoint& point);
 
-/// Requirements of a box. The steps of steady flow are those of most measured boxes, within a factor of 2; unsteady
-/// flow takes up to twenty times as many.
+/// Requirements of a box. The steps of steady flow are from most measured boxes, within a factor of 2; unsteady flow
+/// takes up to twenty times as many.
 struct BoxNeed {
   double sites = 0, steps = 0, bytes = 0;
 };

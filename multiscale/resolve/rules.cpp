@@ -20,7 +20,7 @@ using core::Broken;
 
 /// Least cells per pore: chosen, not measured.
 constexpr double least_pore = 3;
-/// Density of free spheres over that of the fluid: forces of the fluid act on them one step late.
+/// Density of free spheres over the fluid's: forces of the fluid act on them one step late.
 constexpr double least_ratio = 1.1;
 /// Width of a box of free spheres over the largest diameter: no sphere or film touches another and its image. The range
 /// of a film is the unresolved gap on the coarsest grid.

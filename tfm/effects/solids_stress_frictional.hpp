@@ -16,7 +16,7 @@ namespace polybed::tfm {
 ///
 /// In a partly filled cell S on packed solids K, p_s is at least p_f(phi_K) phi_S/(phi_K + 2 phi_S), at which both of
 /// its faces rest: K carries (phi_K/2 + phi_S) and S phi_S/2 of the weight of a full cell. p_f(phi_S) alone is 0 below
-/// the onset, and the upper half of S would fall for ever.
+/// the onset, and the upper half of S would fall forever.
 ///
 /// Gravity acts on the mean fraction of a face, while an upwind flux carries the fraction of the cell it leaves. If the
 /// lower cell is fuller, rising solids gain (phi_K - phi_S)/2 more potential energy than gravity takes, and falling
@@ -41,7 +41,7 @@ class FrictionalStress : public StressEffect {
   void charge_upwind_work(int axis, Fields& fields) const;
   /// Sets the supporting pressure in the loose row on packed solids and in the row above it: the packed row's load
   /// times the row's upper half over all solids from the packed row's middle up. The law alone gives none, and the
-  /// upper half, on the face above, falls for ever and drags the fluid along. In the second row only dust is supported,
+  /// upper half, on the face above, falls forever and drags the fluid along. In the second row only dust is supported,
   /// the less the thinner it is: noise in a cell without solids has no stiffness.
   void hold_surface(Fields& fields) const;
   void add_bulk_viscosity(Fields& fields) const;
