@@ -30,11 +30,4 @@ CLI::App& add_run(CLI::App& app, const std::string& model, const std::string& he
   return command;
 }
 
-CLI::App& add_handed_over(CLI::App& app, const std::string& name, const std::string& help) {
-  CLI::App& command = *app.add_subcommand(name, help);
-  command.prefix_command();
-  command.set_help_flag();
-  return command;
-}
-
 }  // namespace polybed::app

@@ -56,6 +56,7 @@ void add_keys(CLI::App& app, Commands& commands);
 void add_cost(CLI::App& app, Commands& commands);
 void add_fit(CLI::App& app, Commands& commands);
 void add_inversion(CLI::App& app, Commands& commands);
+void add_ask(CLI::App& app, Commands& commands);
 void add_calibrate(CLI::App& app, Commands& commands);
 void add_resolve(CLI::App& app, Commands& commands);
 void add_stability(CLI::App& app, Commands& commands);
@@ -65,7 +66,5 @@ void add_validate(CLI::App& app, Commands& commands);
 void take_case(CLI::App& command, CaseOptions& options, bool required = true);
 /// Adds a command that runs a case with the named model.
 CLI::App& add_run(CLI::App& app, const std::string& model, const std::string& help, RunOptions& options);
-/// Adds a command that passes all options, including --help, to another program.
-CLI::App& add_handed_over(CLI::App& app, const std::string& name, const std::string& help);
 
 }  // namespace polybed::app

@@ -8,6 +8,7 @@
 #include <optional>
 #include <sstream>
 
+#include "app/ask.hpp"
 #include "app/commands.hpp"
 #include "closures/drag.hpp"
 #include "core/case/keys.hpp"
@@ -196,7 +197,22 @@ std::vector<std::string> asked_in(std::vector<std::string> columns, const std::s
   return columns;
 }
 
-/// \param columns  in the header  \param asked  number of columns that define the point
+/// Takes shares and diameters from the values of a row, which it refuses if they are no point.
+Row checked(Row row) {
+  check_point(row.values.at(0), row.values.at(1), row.where);
+  for (std::size_t c = 2; c + 1 < row.values.size(); c += 2) {
+    row.share.push_back(row.values[c]);
+    row.diameter.push_back(row.values[c + 1]);
+    if (!(row.share.back() >= 0 && row.diameter.back() > 0))
+      throw core::CaseError(row.where + "shares must be >= 0, diameters > 0");
+  }
+  const double sum = std::accumulate(row.share.begin(), row.share.end(), 0.0);
+  if (!row.share.empty() && std::abs(sum - 1) > 1e-6)
+    throw core::CaseError(fmt::format("{}shares sum to {}, not to 1", row.where, sum));
+  return row;
+}
+
+/// \param columns  of the header  \param asked  how many of them define the point
 Row row_of(const std::string& line, std::size_t columns, std::size_t asked, const std::string& where) {
   std::vector<std::string> cells = split(line);
   if (cells.size() != columns)
@@ -204,17 +220,7 @@ Row row_of(const std::string& line, std::size_t columns, std::size_t asked, cons
   cells.resize(asked);
   Row row{fmt::format("{}", fmt::join(cells, ",")), where, {}, {}, {}};
   for (const std::string& c : cells) row.values.push_back(number_in(c, where));
-  check_point(row.values[0], row.values[1], where);
-  for (std::size_t c = 2; c < asked; c += 2) {
-    row.share.push_back(row.values[c]);
-    row.diameter.push_back(row.values[c + 1]);
-    if (!(row.share.back() >= 0 && row.diameter.back() > 0))
-      throw core::CaseError(where + "shares must be >= 0, diameters > 0");
-  }
-  const double sum = std::accumulate(row.share.begin(), row.share.end(), 0.0);
-  if (!row.share.empty() && std::abs(sum - 1) > 1e-6)
-    throw core::CaseError(fmt::format("{}shares sum to {}, not to 1", where, sum));
-  return row;
+  return checked(std::move(row));
 }
 
 /// Calls see(header, row) for every row of a file of points, with the columns of the header that define a point.
@@ -250,15 +256,21 @@ void print_csv(const DragOptions& options, const DragLaw& law) {
   });
 }
 
+core::Json named_answers(const DragLaw& law, const Row& row) {
+  const std::vector<std::string> names = answer_names(row.share.size(), law.partition.has_value());
+  const std::vector<double> answers = answer(law, row);
+  core::Json found;
+  for (std::size_t c = 0; c < names.size(); ++c) found[names[c]] = answers[c];
+  return found;
+}
+
 void print_json(const DragOptions& options, const DragLaw& law) {
   core::Json rows = core::Json::array();
   read_points(options.csv, [&](const std::vector<std::string>& header, const std::optional<Row>& row) {
     if (!row) return;
     core::Json& one = rows.emplace_back();
     for (std::size_t c = 0; c < header.size(); ++c) one[header[c]] = row->values[c];
-    const std::vector<std::string> names = answer_names(row->share.size(), law.partition.has_value());
-    const std::vector<double> answers = answer(law, *row);
-    for (std::size_t c = 0; c < names.size(); ++c) one[names[c]] = answers[c];
+    one.update(named_answers(law, *row));
   });
   core::Json json = {{"law", options.law}};
   if (law.partition) json["partition"] = options.partition;
@@ -274,6 +286,18 @@ void run_drag(const DragOptions& options) {
 }
 
 }  // namespace
+
+core::Json drag_of_points(const core::Json& question) {
+  const auto name = [&](const char* what) { return core::text_of(core::member_of(question, what)); };
+  const DragLaw chosen = law_of({name("law"), name("partition"), "", {}, {}});
+  core::Json answers = core::Json::array();
+  for (const core::Json& point : core::array_of(core::member_of(question, "points"))) {
+    Row row{"", fmt::format("point {}: ", answers.size() + 1), {}, {}, {}};
+    for (const core::Json& value : core::array_of(point)) row.values.push_back(core::number_of(value));
+    answers.push_back(named_answers(chosen, checked(std::move(row))));
+  }
+  return answers;
+}
 
 void add_drag(CLI::App& app, Commands& commands) {
   const auto options = std::make_shared<DragOptions>();

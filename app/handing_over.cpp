@@ -1,4 +1,4 @@
-// Commands that become another program, or serve one.
+// Commands that hand over to another program.
 #include <fmt/format.h>
 
 #include "app/commands.hpp"
@@ -9,7 +9,15 @@ namespace polybed::app {
 
 namespace {
 
-/// Adds a command that becomes a module of the Python package.
+/// A command whose options are those of the program that it hands over to, --help included.
+CLI::App& add_handed_over(CLI::App& app, const std::string& name, const std::string& help) {
+  CLI::App& command = *app.add_subcommand(name, help);
+  command.prefix_command();
+  command.set_help_flag();
+  return command;
+}
+
+/// One that becomes a module of the Python package.
 void add_study(CLI::App& app, Commands& commands, const std::string& name, const std::string& help,
                const std::string& module, On on) {
   CLI::App& command = add_handed_over(app, name, help);
@@ -33,18 +41,24 @@ void add_compare(CLI::App& app, Commands& commands) {
 }
 
 void add_cost(CLI::App& app, Commands& commands) {
-  add_study(app, commands, "cost", "error against time for a case, and the settings that follow", "polybed.cost",
-            On::one_process);
+  add_study(app, commands, "cost", "error against time for a case, and the settings that follow",
+            "polybed.cost.command", On::one_process);
 }
 
 void add_fit(CLI::App& app, Commands& commands) {
-  add_study(app, commands, "fit", "fit a drag law to rows of resolved flow, and write a law file", "polybed.fit",
-            On::one_process);
+  add_study(app, commands, "fit", "fit a drag law to rows of resolved flow, and write a law file",
+            "polybed.fit.command", On::one_process);
 }
 
 void add_validate(CLI::App& app, Commands& commands) {
-  add_study(app, commands, "validate", "measured beds against the models: runs, verdicts, a page", "polybed.validation",
-            On::study);
+  add_study(app, commands, "validate", "measured beds against the models: runs, verdicts, a page",
+            "polybed.validation.command", On::study);
+}
+
+void add_calibrate(CLI::App& app, Commands& commands) {
+  add_study(app, commands, "calibrate",
+            "run boxes of particles and make a table of the solids stress for the two-fluid model",
+            "polybed.calibration.command", On::study);
 }
 
 void add_stability(CLI::App& app, Commands& commands) {

@@ -68,7 +68,7 @@ Commands add_commands(CLI::App& app) {
   Commands commands;
   for (const auto add : {add_new,  add_tfm,    add_dem,   add_compare,   add_check,     add_effects, add_estimate,
                          add_cost, add_drag,   add_fit,   add_inversion, add_calibrate, add_resolve, add_measure,
-                         add_plot, add_report, add_watch, add_stability, add_validate,  add_keys})
+                         add_plot, add_report, add_watch, add_stability, add_validate,  add_keys,    add_ask})
     add(app, commands);
   return commands;
 }

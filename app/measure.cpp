@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 
+#include "app/ask.hpp"
 #include "app/commands.hpp"
 #include "app/measure_text.hpp"
 #include "core/error.hpp"
@@ -162,19 +163,7 @@ core::Json ratio_of(const Numbers& above, const Numbers& below) {
                                            })}};
 }
 
-core::Json means_of_series(const core::Json& asked) {
-  core::Json found = {{"series", core::Json::array()}, {"ratios", core::Json::array()}};
-  if (asked.contains("series"))
-    for (const core::Json& values : core::array_of(asked["series"]))
-      found["series"].push_back(means_of(numbers_of(values)));
-  if (asked.contains("ratios"))
-    for (const core::Json& pair : core::array_of(asked["ratios"]))
-      found["ratios"].push_back(
-          ratio_of(numbers_of(core::member_of(pair, "above")), numbers_of(core::member_of(pair, "below"))));
-  return found;
-}
-
-/// End of a window in a run, s. Throws CaseError if it would begin at that time or later.
+/// Where a window ends in a run, s. Throws CaseError where it would begin at that time or later.
 double end_of(const measures::Window& window, const StoredRun& run, const std::string& folder) {
   const Numbers& time = run.history.of("time_s");
   const double last = time.empty() ? 0 : time.back(), end = std::min(window.end, last);
@@ -263,6 +252,18 @@ void run_measure(const MeasureOptions& options) {
 }
 
 }  // namespace
+
+core::Json means_of_series(const core::Json& asked) {
+  core::Json found = {{"series", core::Json::array()}, {"ratios", core::Json::array()}};
+  if (asked.contains("series"))
+    for (const core::Json& values : core::array_of(asked["series"]))
+      found["series"].push_back(means_of(numbers_of(values)));
+  if (asked.contains("ratios"))
+    for (const core::Json& pair : core::array_of(asked["ratios"]))
+      found["ratios"].push_back(
+          ratio_of(numbers_of(core::member_of(pair, "above")), numbers_of(core::member_of(pair, "below"))));
+  return found;
+}
 
 void add_measure(CLI::App& app, Commands& commands) {
   const auto options = std::make_shared<MeasureOptions>();

@@ -1,6 +1,9 @@
 // polybed plot: pictures of a finished or active run, drawn by the Python package.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
+
 #include "app/commands.hpp"
 #include "app/run_directory.hpp"
 #include "core/case/units.hpp"
@@ -13,7 +16,7 @@ namespace polybed::app {
 
 namespace {
 
-/// Options for pictures of a run.
+/// Options of the pictures and the pages of a run.
 struct PlotOptions {
   std::filesystem::path run;     ///< a run directory, or a case that has one in runs/
   std::string what = "all";      ///< overview | fields | particles | profiles | history | animation, by commas; or all
@@ -22,19 +25,15 @@ struct PlotOptions {
   std::string format = "png";    ///< png | svg
   double rate = 0;               ///< frames per second; 0: chosen
   bool quiet = false, json = false;
-};
-
-/// Options for the page that follows a run.
-struct WatchOptions {
-  std::filesystem::path run;  ///< a run directory, or a case that has one in runs/
-  int port = 0;               ///< on the loopback address; 0: any that is free
+  int port = 0;  ///< of the page that follows a run, on the loopback address; 0: any that is free
 };
 
 namespace fs = std::filesystem;
 
+/// A folder of polybed cost has pictures of its own.
 bool is_run(const fs::path& directory) {
-  return fs::exists(directory / "run.json") || fs::exists(directory / "fields.h5") ||
-         fs::exists(directory / "particles.h5");
+  constexpr std::array names{"run.json", "fields.h5", "particles.h5", "cost.json"};
+  return std::any_of(names.begin(), names.end(), [&](const char* name) { return fs::exists(directory / name); });
 }
 
 /// The run for a path: a run directory, or the run of a case file or a case's folder in runs/, the continuum's if there
@@ -75,15 +74,8 @@ std::vector<std::string> words_of(const PlotOptions& options) {
   return words;
 }
 
-/// A folder of polybed cost has pictures of its own.
-PythonEnd draw(const PlotOptions& options) {
-  if (!fs::exists(options.run / "cost.json")) return run_python("polybed.plot", words_of(options), PythonOutput::show);
-  std::vector<std::string> words{"--", options.run.string()};
-  if (!options.output.empty()) words.insert(words.begin(), {"--out", options.output.string()});
-  return run_python("polybed.cost.picture", words, PythonOutput::show);
-}
-
-/// Exit code after a module's work on a run. Throws core::FileError if it failed.
+/// What a module that was to make something of a run has ended with. Throws core::FileError if it could not do its
+/// work.
 core::ExitCode code_of(const PythonEnd& end, const PlotOptions& options, const std::string& what) {
   if (!end.not_started.empty())
     throw core::FileError(fmt::format("no {}: {}; {}", what, end.not_started, python_packages));
@@ -104,15 +96,15 @@ core::ExitCode code_of(const PythonEnd& end, const PlotOptions& options, const s
 
 core::ExitCode run_plot(const PlotOptions& options) {
   if (!options.output.empty()) core::mark_directory(options.output);
-  return code_of(draw(options), options, "pictures");
+  return code_of(run_python("polybed.plot", words_of(options), PythonOutput::show), options, "pictures");
 }
 
 core::ExitCode run_report(const PlotOptions& options) {
-  const PythonEnd end = run_python("polybed.report", {"--", run_of(options.run).string()}, PythonOutput::show);
+  const PythonEnd end = run_python("polybed.report.build", {"--", run_of(options.run).string()}, PythonOutput::show);
   return code_of(end, options, "report.html");
 }
 
-void run_watch(const WatchOptions& options) {
+void run_watch(const PlotOptions& options) {
   become_python("polybed.report.watch",
                 {"--port", fmt::format("{}", options.port), "--", run_of(options.run).string()});
 }
@@ -144,7 +136,7 @@ void add_report(CLI::App& app, Commands& commands) {
 }
 
 void add_watch(CLI::App& app, Commands& commands) {
-  const auto options = std::make_shared<WatchOptions>();
+  const auto options = std::make_shared<PlotOptions>();
   CLI::App& command = *app.add_subcommand("watch", "a page that follows a run, for a browser on this machine");
   command.add_option("RUN", options->run, "run directory, or the case of a run in runs/")->required();
   command.add_option("--port", options->port, "of the page; default: any that is free")->check(CLI::Range(0, 65535));

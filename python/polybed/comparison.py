@@ -1,35 +1,26 @@
-"""Makes comparison.html of a comparison.json: one page that stands alone, which `polybed compare` writes at its end.
+"""Makes comparison.html of a comparison.json: one page that stands alone, which `polybed compare` writes at its end."""
 
-    python3 -m polybed.comparison DIR
-
-Exit codes are those of polybed: 0 done, 2 the command is wrong, 4 a file or a package is missing.
-"""
-
-import argparse
 import shlex
-import sys
 from pathlib import Path
 
 from polybed.drawing.units import fitting
-from polybed.in_place import put_text
-from polybed.packages import needed
 from polybed.page import Html, file_name, listing, markup, picture, section, source, table, warnings
 from polybed.page import page as whole_page
 
-with needed(__name__ == "__main__"):
-    import matplotlib.pyplot as plt
+import matplotlib.pyplot as plt
 
-    from polybed.drawing import comparison as drawing
-    from polybed.drawing.profiles import shown_top
-    from polybed.drawing.style import NAMES, STYLE
-    from polybed.ending import made
-    from polybed.files import contents_of, read_json
-    from polybed.plot import stored_times
-    from polybed.quantities import measure_words, unit_of_column
-    from polybed.read import nearest, read
-    from polybed.record import title_of_case
-    from polybed.drawing.inversion_scan import commands as scan_command
-    from polybed.study.compare_report import with_error
+from polybed.drawing import comparison as drawing
+from polybed.drawing.profiles import shown_top
+from polybed.drawing.style import NAMES, STYLE
+from polybed.files import read_json
+from polybed.plot import record_page, stored_times
+from polybed.quantities import measure_words, unit_of_column
+from polybed.read import nearest, read
+from polybed.record import title_of_case
+from polybed.runner import words_of
+from polybed.drawing.inversion_scan import commands as scan_command
+from polybed.study.compare_report import with_error
+
 
 def number(value, error=None):
     return "\u2013" if value is None else with_error(value, error).replace("+-", "\u00b1 ")
@@ -39,21 +30,17 @@ def on_ranks(ranks):
     return ["mpirun", "-n", str(ranks)] if ranks > 1 else []
 
 
-def settings(overrides):
-    return [word for override in overrides for word in ("--set", override)]
-
-
 def commands(found, records, scan=None):
     """The lines that make the runs, in place of those that are there, the scan that the inversion velocity is from (if it says
     what it was asked for), and the comparison again, from the folder in which they were made."""
     case = found["case"]
     lines = []
     for model, record in records.items():
-        words = [*on_ranks(record["ranks"]), "polybed", model, case, *settings(record["overrides"])]
+        words = [*on_ranks(record["ranks"]), "polybed", model, case, *words_of(record["overrides"])]
         lines.append(words + ["-o", found["models"][model]["directory"], "--force"])
     if scan and "scan" in scan:
         lines.append(scan_command(scan))
-    words = ["polybed", "compare", case, *settings(found["overrides"])]
+    words = ["polybed", "compare", case, *words_of(found["overrides"])]
     for model in records:
         words += [f"--{model}", found["models"][model]["directory"]]
     if "inversion_file" in found:
@@ -157,10 +144,8 @@ def pictures(found, runs):
     return Html().join(parts)
 
 
-def page(directory):
+def page(found, path):
     """The page as text."""
-    path = Path(directory) / "comparison.json"
-    found = read_json(path, "polybed comparison")
     runs = {model: read(found["models"][model]["directory"]) for model in ("tfm", "dem")}
     records = {model: run.record for model, run in runs.items()}
     scan_path = Path(found["inversion_file"]) if "inversion_file" in found else None
@@ -180,20 +165,6 @@ def page(directory):
     return whole_page(title, "two-fluid model and particles beside each other \u00b7 " + file_name(found["case"]), Html().join(body))
 
 
-def write_page(directory):
-    """Puts DIR/comparison.html in place whole and returns its path."""
-    path = Path(directory) / "comparison.html"
-    with contents_of(path.with_name("comparison.json")):
-        text = page(directory)
-    return put_text(path, text)
-
-
-def main(arguments=None):
-    parser = argparse.ArgumentParser(prog="polybed.comparison", description="Makes the page of a comparison.")
-    parser.add_argument("directory", help="folder of comparison.json")
-    directory = parser.parse_args(arguments).directory
-    return made(lambda: [write_page(directory)])
-
-
-if __name__ == "__main__":
-    sys.exit(main())
+def drawn(path, _out=None):
+    """Puts comparison.html beside a comparison.json and returns its path."""
+    return [record_page(path, "polybed comparison", page)]

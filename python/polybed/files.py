@@ -10,6 +10,7 @@ import re
 import stat
 from collections.abc import Mapping
 from pathlib import Path
+from typing import Any
 
 import h5py
 import numpy as np
@@ -29,6 +30,8 @@ VERSIONS = {
     "polybed cost": 1,
     "polybed stability": 1,
     "polybed validation": 1,
+    "polybed closure uncertainty": 1,
+    "polybed drag fit": 1,
 }
 
 
@@ -116,7 +119,7 @@ def finite(text):
     return value
 
 
-def read_json(path, filetype):
+def read_json(path: str | os.PathLike[str], filetype: str) -> dict[str, Any]:
     """What a JSON file holds, a dictionary, if the file is what it should be."""
     with contents_of(path):
         found = json.loads(read_text(path))

@@ -1,4 +1,5 @@
-"""Starts a module of this package as the program does, so that nothing in the working directory is imported, run or read as settings.
+"""Runs main() of a module of this package, as the program does, so that nothing in the working directory is imported, run or read as
+settings. Its exit codes are those of polybed: 0 done, 2 the command is wrong, 4 a file or a package is missing, ...
 
     /usr/bin/python3 -I .../polybed/isolated.py polybed.plot ARGUMENTS...
 
@@ -7,7 +8,6 @@
 
 import importlib.util
 import os
-import runpy
 import sys
 from pathlib import Path
 
@@ -44,4 +44,7 @@ if __name__ == "__main__":
     sys.path.insert(0, str(PACKAGE.parent))
     sys.meta_path.insert(0, MatplotlibFromPackage)
     os.environ["MPLBACKEND"] = "Agg"  # a notebook exports one that this interpreter may not have
-    runpy.run_module(module, run_name="__main__", alter_sys=True)
+    from polybed.packages import needed
+    with needed(True):
+        main = importlib.import_module(module).main
+    sys.exit(main())

@@ -1,30 +1,33 @@
 """Draws a finished or a running run: what `polybed plot` and the end of `polybed tfm` hand over to.
 
-    python3 -m polybed.plot RUN [--what fields,particles,profiles,history,animation] [--time T] [--out DIR] [--format png|svg]
-
-Exit codes are those of polybed: 0 done, 2 the command is wrong, 4 a file or a package is missing.
+In place of RUN stands the folder of a study, which is drawn as at its end.
 """
 
 import argparse
+import importlib
 import json
 import sys
 import warnings
 from pathlib import Path
 
-from polybed.in_place import in_place
+from polybed.in_place import in_place, put_text
 from polybed.packages import needed
 from polybed.progress import Bar
 
-with needed(__name__ == "__main__"):
+with needed(False):
     import matplotlib.pyplot as plt
 
     from polybed.drawing import animation, fields, history, overview, particles, profiles
     from polybed.drawing.style import STYLE
     from polybed.ending import WRONG_CASE, StudyError, made
-    from polybed.files import FAULTS, contents_of
+    from polybed.files import FAULTS, contents_of, read_json
     from polybed.particles import step_shown
     from polybed.read import Snapshot, nearest
 
+# Records of studies, each with the module whose drawn(path, out) makes pictures and a page of it and returns their paths.
+STUDIES = {"comparison.json": "polybed.comparison", "inversion.json": "polybed.drawing.inversion_scan", "cost.json": "polybed.cost.page",
+           "stability.json": "polybed.drawing.hard_cases", "closure_uncertainty.json": "polybed.drawing.closure_uncertainty",
+           "fit.json": "polybed.drawing.fit"}
 WHAT = ("overview", "fields", "particles", "profiles", "history", "animation")
 
 
@@ -36,6 +39,27 @@ def save(figure, path):
         return path
     finally:
         plt.close(figure)
+
+
+def study_drawn(path, out=None):
+    """Draws the record of a study, in its folder or another one, and returns the paths."""
+    return importlib.import_module(STUDIES[path.name]).drawn(path, out)
+
+
+def record_drawn(path, filetype, draw, endings=("png",), out=None):
+    """Draws a record into pictures of its name, and returns their paths."""
+    found = read_json(path, filetype)
+    folder = Path(out or path.parent)
+    folder.mkdir(parents=True, exist_ok=True)
+    with plt.rc_context(STYLE), contents_of(path):
+        return [save(draw(found), folder / f"{path.stem}.{ending}") for ending in endings]
+
+
+def record_page(path, filetype, text_of):
+    """Puts the page of a record in place whole, beside it, and returns its path."""
+    found = read_json(path, filetype)
+    with contents_of(path):
+        return put_text(path.with_suffix(".html"), text_of(found, path))
 
 
 def stored_times(run):
@@ -153,11 +177,10 @@ def drawn(options):
         return made(lambda: [at_end(options.run, options.time)])
 
     def paths():
+        study = next(filter(Path.exists, (Path(options.run, name) for name in STUDIES)), None)
+        if study and not Path(options.run, "run.json").exists():
+            return study_drawn(study, options.out)
         progress = Bar("animation").show if sys.stderr.isatty() and not options.quiet else None
         drawn = pictures(options.run, options.what, options.time, options.out, options.format, options.rate, progress)
         return [json.dumps({"pictures": [str(path) for path in drawn]})] if options.json else drawn
     return made(paths)
-
-
-if __name__ == "__main__":
-    sys.exit(main())

@@ -17,7 +17,6 @@ from __future__ import annotations
 import contextlib
 import functools
 import itertools
-import json
 import math
 import os
 import tomllib
@@ -31,7 +30,7 @@ from polybed.files import FAULTS, MISFITS, read_json
 from polybed.overrides import Overrides, Value, plain, toml, words
 from polybed.progress import BarOfRuns, put, redrawn
 from polybed.read import Run, read
-from polybed.runner import call, has_checkpoint, program, side_by_side, sources
+from polybed.runner import answer_of, call, has_checkpoint, program, side_by_side, sources
 from polybed.solids_table import SolidsTable, read_table
 
 Place = str | os.PathLike[str]  # of a file or a folder
@@ -89,7 +88,7 @@ def case(name: str) -> Path:
 
 def resolved(case: Place, overrides: Overrides | None, until: Value | None) -> tuple[str, str]:
     """The case as the record of a run of it has it, and its hash."""
-    found = json.loads(call("check", case, *settings(overrides, until), "--resolved", "--json"))
+    found = answer_of("check", case, *settings(overrides, until), "--resolved")
     return found["case"], found["hash"]
 
 
@@ -144,8 +143,7 @@ def folder_of(case: Place, what: str, digest: str) -> Path:
 def check(case: Place, overrides: Overrides | None = None, until: Value | None = None) -> dict[str, Any]:
     """What `polybed check --json` says of a case, without a run: in "expected" the state and the height of the bed and the velocities of
     fluidisation and of fall, named as in a run's card; steps, memory and time that a run takes, notes, and why a model refuses it."""
-    answer: dict[str, Any] = json.loads(call("check", case, *settings(overrides, until), "--json"))
-    return answer
+    return answer_of("check", case, *settings(overrides, until))
 
 
 def made(case: Place, model: str, overrides: Overrides | None, until: Value | None, ranks: int,
@@ -234,8 +232,7 @@ def compare(case: Place, tfm: Run | Place | None = None, dem: Run | Place | None
         made = run(case, model, overrides, output / model, until, quiet=quiet, label=model) if given is None else given
         options += [f"--{model}", getattr(made, "directory", made)]
     call("compare", case, *settings(overrides, until), *options, "-o", output, *([] if page else ["--no-picture"]), tell=teller(quiet))
-    found: dict[str, Any] = read_json(output / "comparison.json", "polybed comparison")
-    return found
+    return read_json(output / "comparison.json", "polybed comparison")
 
 
 @names_itself
@@ -250,14 +247,12 @@ def inversion(case: Place, scan: str | None = None, overrides: Overrides | None 
     """
     options: list[object] = ["inversion", case, *settings(overrides, until if scan else None), *(["--method", method] if method else [])]
     if scan is None:
-        balance: dict[str, Any] = json.loads(call(*options, "--json"))
-        return balance
+        return answer_of(*options)
     output = Path(output) if output else folder_of(case, "inversion", resolved(case, overrides, until)[1][:DIGITS])
     for option, velocity in (("--from", begin), ("--to", end)):
         options += [] if velocity is None else [option, plain(velocity, option)]
     call(*options, "--scan", scan, "-o", output, "--no-picture", tell=teller(quiet))
-    found: dict[str, Any] = read_json(output / "inversion.json", "polybed inversion")
-    return found
+    return read_json(output / "inversion.json", "polybed inversion")
 
 
 @names_itself

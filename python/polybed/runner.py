@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import ctypes
+import json
 import os
 import signal
 import subprocess
@@ -126,6 +127,55 @@ def call(*options: object, ranks: int = 1, tell: Callable[[str], None] | None = 
     return printed.result()
 
 
+def answer_of(*words: object, **options: Any) -> dict[str, Any]:
+    """What a command answers with --json. options: of call. Raises ProgramError."""
+    found: dict[str, Any] = json.loads(call(*words, "--json", **options))
+    return found
+
+
+def line_to_ask(question: str, about: dict[str, Any]) -> str:
+    return json.dumps({"ask": question} | about, ensure_ascii=False, default=str) + "\n"
+
+
+def asked(question: str, **about: Any) -> Any:
+    """What `polybed ask` (app/ask.cpp) answers to one question. Raises ProgramError."""
+    return json.loads(call("ask", given=line_to_ask(question, about)))
+
+
+class Door:
+    """`polybed ask`, for questions that follow each other, on as many ranks as this process was started with. It speaks on standard error."""
+
+    def __init__(self) -> None:
+        self.child = start(["ask"], ranks(), True, stdin=subprocess.PIPE, stdout=subprocess.PIPE, encoding="utf-8", errors="surrogateescape")
+        self.questions: Any = self.child.stdin
+        self.answers: Any = self.child.stdout
+
+    def ask(self, question: str, **about: Any) -> Any:
+        with contextlib.suppress(BrokenPipeError):  # the program has ended; reading its answer shows that
+            self.questions.write(line_to_ask(question, about))
+            self.questions.flush()
+        return self.answer()
+
+    def answer(self) -> Any:
+        """The next line that is answered. Raises StudyError with the code of a program that has ended."""
+        line = self.answers.readline()
+        if not line:
+            code = self.child.wait()
+            raise StudyError(code if code >= 0 else 128 - code)
+        return json.loads(line)
+
+    def __enter__(self) -> Door:
+        return self
+
+    def __exit__(self, kind: type[BaseException] | None, *_: object) -> None:
+        if kind is KeyboardInterrupt:
+            self.child.terminate()  # it may be in a box
+        with contextlib.suppress(BrokenPipeError):
+            self.questions.close()
+        self.answers.close()
+        self.child.wait()
+
+
 @contextlib.contextmanager
 def side_by_side(count: int) -> Iterator[ThreadPoolExecutor]:
     """Threads that run the program. Where the user stops them, nothing more is started and what runs is asked to end."""
@@ -222,6 +272,11 @@ def has_checkpoint(directory: str | os.PathLike[str]) -> bool:
     return any(os.path.exists(os.path.join(directory, name)) for name in CHECKPOINTS)
 
 
+def words_of(overrides: Iterable[str]) -> list[str]:
+    """Overrides as words of the command line."""
+    return [word for override in overrides for word in ("--set", override)]
+
+
 def flags(request: dict[str, Any], *names: str) -> list[str]:
-    """Those of these options that a request has, as words of the command line."""
+    """Those of these options that a request has, likewise."""
     return [f"--{name}" for name in names if request[name]]

@@ -3,7 +3,6 @@ polybed.program."""
 
 from __future__ import annotations
 
-import json
 import os
 from collections.abc import Iterable, Sequence
 from pathlib import Path
@@ -13,7 +12,7 @@ from polybed.files import read_json
 from polybed.overrides import Overrides, Value, plain
 from polybed.program import DIGITS, Place, folder_of, inversion, names_itself, resolved, settings, teller
 from polybed.read import Run, read
-from polybed.runner import call
+from polybed.runner import answer_of, call
 
 
 @names_itself
@@ -24,8 +23,7 @@ def measure(run: Run | Place) -> dict[str, Any]:
     Returns {"time_s": [...], "measures": {name: {"unit", "help", "values"}}}: lists over the stored times, None where a measure
     has no value. Raises ProgramError.
     """
-    found: dict[str, Any] = json.loads(call("measure", run.directory if isinstance(run, Run) else run, "--json"))
-    return found
+    return answer_of("measure", getattr(run, "directory", run))
 
 
 def table(runs: Iterable[Run | Place] | Run | Place) -> Any:
@@ -68,8 +66,7 @@ def cost(case: Place, model: str | None = None, axes: tuple[str, ...] = (), targ
     for option, value in (("--model", model), ("--axes", ",".join(axes) or None), ("--target", target), ("--budget", budget)):
         options += [] if value is None else [option, plain(value, option)]
     call(*options, *(["--resume"] if (folder / "cost.json").exists() else []), tell=teller(quiet))
-    found: dict[str, Any] = read_json(folder / "cost.json", "polybed cost")
-    return found
+    return read_json(folder / "cost.json", "polybed cost")
 
 
 @names_itself
@@ -87,5 +84,4 @@ def fit(rows: Place | Sequence[Place], form: str = "brinkman_oseen", output: Pla
     tables = [rows] if isinstance(rows, str | os.PathLike) else list(rows)
     options: list[object] = ["--form", form, "--bootstrap", bootstrap, "--seed", seed, *(["-o", output] if output else []),
                              *(["--force"] if force else []), *([] if picture else ["--no-picture"]), *(["--quiet"] if quiet else [])]
-    found: dict[str, Any] = json.loads(call("fit", *tables, *options, "--json", tell=teller(quiet)))
-    return found
+    return answer_of("fit", *tables, *options, tell=teller(quiet))

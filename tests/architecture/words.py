@@ -11,7 +11,7 @@ FOLDERS = ("closures", "core", "relevance", "fluid", "measures", "tfm", "dem", "
 READERS = {f"{name}.cpp" for name in (
     *(f"core/case/{n}" for n in ("contact_properties", "file", "resolved", "scene", "units", "values")),
     "core/output/directory", "core/output/profiles",
-    "app/calibrate", "app/drag", "app/estimate", "app/inversion", "app/inversion_scan", "app/keys", "app/measure", "app/measure_text", "app/plot",
+    "app/drag", "app/estimate", "app/inversion", "app/inversion_scan", "app/keys", "app/measure", "app/measure_text", "app/plot",
     "app/run_directory")}
 
 

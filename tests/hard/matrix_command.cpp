@@ -53,7 +53,7 @@ core::ExitCode run_matrix(const Options& options) {
   run_cells(cells, options.jobs, show);
   write_files(cells, options.suite, directory);
   std::string message;
-  const bool drawn = multiscale::draw("polybed.stability", directory, message);
+  const bool drawn = multiscale::draw("polybed.plot", directory, message);
   if (!drawn && !options.json) core::print(stderr, "no heat map: {}\n", message);
   const std::vector<std::string> differ = differences(cells);
   if (options.json)

@@ -1,14 +1,13 @@
 """The boxes of a calibration: which are finished, and how the others are run."""
 
 import json
-import os
 import time
 from concurrent.futures import as_completed
 
 from polybed.calibration.output import ERR, duration, say
 from polybed.ending import FILE, NUMBERS, StudyError
 from polybed.files import FAULTS, contents_of, finite, read_text
-from polybed.runner import side_by_side, start
+from polybed.runner import Door, side_by_side
 
 # What is read of a box: numbers, and means with their standard error.
 SINGLE = ("solids_fraction", "stokes", "restitution", "friction", "share", "seed", "balance", "drift", "shear_rate_1_s", "diameter_m",
@@ -32,26 +31,17 @@ def read_box(path, digest):
     return box
 
 
-def run_all(jobs, at_once, finished):
-    """Runs the program by jobs, {place: words}, in their order; `finished` is called with the place of each that ended with 0. Returns the
-    places of those that failed."""
-    failed = []
-    with side_by_side(at_once) as threads:
-        places = {threads.submit(lambda words: start(words, stdout=ERR, process_group=0).wait(), words): place for place, words in jobs.items()}
-        for future in as_completed(places):
-            if future.result() == 0:
-                finished(places[future])
-            else:
-                failed.append(places[future])
-    return failed
+def asked_of(points):
+    """Points as `polybed ask` takes them."""
+    return [point._asdict() for point in points]
 
 
 class Boxes:
     """Boxes that are run, with those finished before, in the order asked for."""
 
-    def __init__(self, service, options, points):
-        self.service, self.options, self.points = service, options, points
-        named = service.ask("boxes", *(point.text() for point in points))
+    def __init__(self, door, options, points):
+        self.door, self.options, self.points = door, options, points
+        named = door.ask("boxes", points=asked_of(points))
         self.names, self.expected = [name for name, _ in named], [seconds for _, seconds in named]
         self.done = [self.read(n) is not None for n in range(len(points))]
 
@@ -80,28 +70,38 @@ class Boxes:
             raise StudyError(FILE, f"{self.path(results.index(None))}: the box that should lie here is not whole")
         return results
 
-    def run_as_processes(self):
-        """Returns the places of those that failed."""
-        def finished(place):
-            self.done[place] = True
+    def run_by(self, door, places, finished):
+        """Has a program run boxes, in this order; `finished` is called each time its first rank has finished one. Returns the places of
+        those that failed."""
+        answer = door.ask("run", points=asked_of(self.points[n] for n in places), files=[str(self.path(n)) for n in places])
+        while answer is None:
+            finished()
+            answer = door.answer()
+        return [places[n] for n in answer]
+
+    def run_alone(self, n):
+        """Likewise one box, by a program of its own."""
+        def finished():
+            self.done[n] = True
             self.tell()
-        jobs = {n: ["calibrate", "--box", str(os.getpid()), os.fspath(self.path(n)), self.options.case, self.points[n].text(),
-                    *self.options.set] for n in self.left()}
-        return run_all(jobs, self.options.jobs, finished)
+        try:
+            with Door() as door:
+                door.ask("case", case=self.options.case, settings=self.options.set)
+                return self.run_by(door, [n], finished)
+        except StudyError:  # the program has ended
+            return [n]
+
+    def run_as_processes(self):
+        with side_by_side(self.options.jobs) as threads:
+            return [n for future in as_completed([threads.submit(self.run_alone, n) for n in self.left()]) for n in future.result()]
 
     def run_on_ranks(self):
         """The same by the ranks of the program. The boxes that other ranks have finished are known by their files."""
         left = self.left()
-        if not left:
-            return []
-        words = [word for n in left for word in (self.path(n), self.points[n].text())]
-        answer = self.service.ask("run", *words)
-        while answer is None:  # the first rank has finished a box
+        failed = self.run_by(self.door, left, self.look) if left else []
+        if left and self.left():
             self.look()
-            answer = self.service.answer()
-        if self.left():
-            self.look()
-        return [left[n] for n in answer]
+        return failed
 
     def look(self):
         for n in self.left():

@@ -19,9 +19,6 @@ class Point(NamedTuple):
     pushed: bool = False  # both species also pushed apart, for what they exchange; its stress is not used
     seed: int = 1
 
-    def text(self):
-        return " ".join(str(int(value) if isinstance(value, bool) else value) for value in self)
-
 
 @dataclass
 class Plan:

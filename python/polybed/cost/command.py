@@ -19,9 +19,8 @@ from polybed.cost.scene import Scene
 from polybed.cost.sweep import CANDIDATE, SweepOptions
 from polybed.cost.sweeper import Sweeper, common_overrides
 from polybed.program import name_of
-from polybed.runner import call
+from polybed.runner import call, words_of
 from polybed.study import output_folder
-from polybed.study.cases import words_of
 from polybed.ending import DONE, FILE, NUMBERS, WRONG_CASE, StudyError, answer, guarded
 
 SECONDS = {"us": 1e-6, "ms": 1e-3, "s": 1.0, "min": 60.0, "h": 3600.0}
@@ -168,6 +167,6 @@ def work(given):
     return DONE if do(*rest) else NUMBERS
 
 
-def main(arguments):
+def main(arguments=None):
     given = parser().parse_intermixed_args(arguments)
     return guarded(lambda: work(given))

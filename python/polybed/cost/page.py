@@ -1,7 +1,6 @@
 """cost.html of a sweep: what to use, what it costs, what the error is made of, and how to make it again; one file that stands alone."""
 
 import shlex
-from pathlib import Path
 
 import matplotlib.pyplot as plt
 
@@ -9,9 +8,9 @@ from polybed.cost.words import REFERENCE, STATUS, in_words, part
 from polybed.drawing import cost
 from polybed.drawing.style import NAMES, STYLE
 from polybed.drawing.units import text
-from polybed.files import contents_of, read_json
-from polybed.in_place import put_text
 from polybed.page import Html, file_name, listing, markup, page, picture, section, source, table, warnings
+from polybed.plot import record_drawn, record_page
+from polybed.runner import words_of
 
 NONE = "\u2013"  # of a number that is not known
 STORED = ("output.every=", "output.history_every=", "output.checkpoint_every=")  # that every study sets by itself
@@ -85,7 +84,7 @@ def text_of(sweep, path):
         drawn = picture(cost.draw(sweep) if measured else None, "all runs; " + file_name(path), "error against computing time")
     overrides = [override for override in sweep["overrides"] if not override.startswith(STORED)]
     axes = next((run["settings"] for run in sweep["runs"] if run["settings"]), {})
-    words = ["polybed", "cost", sweep["case_path"], *(w for o in overrides for w in ("--set", o)), "--model", sweep["model"],
+    words = ["polybed", "cost", sweep["case_path"], *words_of(overrides), "--model", sweep["model"],
              *(["--axes", ",".join(axes)] if axes else []),
              "--clock", sweep["clock"], "--budget", f"{sweep['budget_s']:g}s", "--target", f"{100 * sweep['target']:g}%", "-o", str(path.parent), "--force"]
     body = [section("use", "What to use", recommendation(sweep)), section("picture", "Error against computing time", drawn),
@@ -97,10 +96,7 @@ def text_of(sweep, path):
     return page(cost.title_of(sweep), under, Html().join(body))
 
 
-def write_page(directory):
-    """Puts DIR/cost.html in place whole and returns its path."""
-    path = Path(directory) / "cost.json"
-    sweep = read_json(path, "polybed cost")
-    with contents_of(path):
-        found = text_of(sweep, path)
-    return put_text(path.with_suffix(".html"), found)
+def drawn(path, out=None):
+    """Draws a sweep as PNG and SVG, makes the page beside it unless they are to lie elsewhere, and returns the paths."""
+    pictures = record_drawn(path, "polybed cost", cost.draw, ("png", "svg"), out)
+    return pictures if out else [*pictures, record_page(path, "polybed cost", text_of)]

@@ -111,10 +111,8 @@ def write_sweep(sweep, of, folder, picture):
     if not picture:
         return ""
     try:
-        from polybed.cost.picture import pictures  # what draws takes longer to import than all else
-        from polybed.cost.page import write_page
-        pictures(folder)
-        write_page(folder)
+        from polybed.cost.page import drawn  # what draws takes longer to import than all else
+        drawn(folder / "cost.json")
     except Exception as error:  # what lies in the folder is complete without its picture
         return str(error)
     return ""

@@ -10,8 +10,8 @@ from typing import NamedTuple
 from polybed.cost.work import counters_of, weighed
 from polybed.files import contents_of, read_json, read_text
 from polybed.in_place import put_text
-from polybed.study.cases import hash_of, words_of
-from polybed.runner import run_within
+from polybed.study.cases import hash_of
+from polybed.runner import run_within, words_of
 from polybed.ending import WRONG_CASE
 from polybed.study.measured import Measured, measured
 from polybed.study.output_folder import mark_folder

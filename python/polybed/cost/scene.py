@@ -1,11 +1,9 @@
 """The case of a sweep as the program resolves it."""
 
-import json
 import resource
 import tomllib
 
-from polybed.runner import call
-from polybed.study.cases import words_of
+from polybed.runner import answer_of, words_of
 
 LEAST_MODULUS = 5e6  # Pa, core::least_modulus: what contacts have unless the case says otherwise
 
@@ -20,7 +18,7 @@ class Scene:
 
     def __init__(self, path, overrides):
         before = children_seconds()
-        found = json.loads(call("check", path, *words_of(overrides), "--json"))
+        found = answer_of("check", path, *words_of(overrides))
         self.seconds = children_seconds() - before  # CPU time of the check, which balances the forces on the bed
         self.path, self.overrides, self.text, self.hash, self.needs = path, list(overrides), found["case"], found["hash"], found
         self.keys = tomllib.loads(self.text)

@@ -1,13 +1,10 @@
 """The band that the uncertainty of the drag law puts about an answer."""
 
-import json
-from pathlib import Path
-
 import matplotlib.pyplot as plt
 import numpy as np
 
-from polybed.drawing.style import COLOURS, GREY, PALE, STYLE
-from polybed.files import read_text
+from polybed.drawing.style import COLOURS, GREY, PALE
+from polybed.plot import record_drawn
 from polybed.read import read
 from polybed.study.measured import centre_column, history_of, species_of
 
@@ -54,15 +51,13 @@ def draw_runs(record, folder, figure):
     axes.legend()
 
 
-def draw(folder):
+def draw(record, folder):
+    figure = plt.figure(figsize=(6.4 if record["kind"] == "tfm" else 4, 3))
+    draw_inversion(record, figure) if record["kind"] == "inversion" else draw_runs(record, folder, figure)
+    figure.tight_layout()
+    return figure
+
+
+def drawn(path, out=None):
     """Writes closure_uncertainty.png beside the record of that name, and returns its path."""
-    folder = Path(folder)
-    record = json.loads(read_text(folder / "closure_uncertainty.json"))
-    with plt.rc_context(STYLE):
-        figure = plt.figure(figsize=(6.4 if record["kind"] == "tfm" else 4, 3))
-        draw_inversion(record, figure) if record["kind"] == "inversion" else draw_runs(record, folder, figure)
-        figure.tight_layout()
-        path = folder / "closure_uncertainty.png"
-        figure.savefig(path)
-        plt.close(figure)
-    return path
+    return record_drawn(path, "polybed closure uncertainty", lambda record: draw(record, path.parent), out=out)

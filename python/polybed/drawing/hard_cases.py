@@ -81,3 +81,9 @@ def draw(matrix):
         figure.colorbar(plt.cm.ScalarMappable(norm, colours), ax=stacks, shrink=0.4, aspect=60, location="bottom", pad=0.01,
                         label="log10 of the worst value over its limit")
     return figure
+
+
+def drawn(path, out=None):
+    """Draws a stability.json and returns the paths of the pictures."""
+    from polybed.plot import record_drawn
+    return record_drawn(path, "polybed stability", draw, ("png", "svg"), out)

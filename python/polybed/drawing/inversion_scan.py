@@ -1,37 +1,21 @@
-"""Draws inversion.json of a scan and makes its page, as `polybed inversion --scan` does at its end.
+"""Draws inversion.json of a scan and makes its page, as `polybed inversion --scan` does at its end."""
 
-    python3 -m polybed.drawing.inversion_scan DIR
-
-Exit codes are those of polybed: 0 done, 2 the command is wrong, 4 a file or a package is missing.
-"""
-
-import argparse
 import shlex
-import sys
 from pathlib import Path
 
 from polybed.drawing.units import fitting, text
-from polybed.in_place import put_text
-from polybed.packages import needed
 from polybed.page import Html, file_name, listing, page, section, source, table
 from polybed.page import picture as shown_picture
 
-with needed(__name__ == "__main__"):
-    import matplotlib.pyplot as plt
-    import numpy as np
+import matplotlib.pyplot as plt
+import numpy as np
 
-    from polybed.drawing.style import COLOURS, GREY, NAMES, PALE, STYLE
-    from polybed.ending import made
-    from polybed.files import contents_of, read_json
-    from polybed.plot import save
-    from polybed.read import read
-    from polybed.record import title_of_case
-    from polybed.study.inversion_search import known
-
-
-def read_scan(directory):
-    """inversion.json of a folder, as a dictionary."""
-    return read_json(Path(directory) / "inversion.json", "polybed inversion")
+from polybed.drawing.style import COLOURS, GREY, NAMES, PALE, STYLE
+from polybed.plot import record_drawn, record_page
+from polybed.read import read
+from polybed.record import title_of_case
+from polybed.runner import words_of
+from polybed.study.inversion_search import known
 
 
 def columns(scan):
@@ -65,13 +49,6 @@ def draw(found):
     return figure
 
 
-def picture(directory, output=None):
-    """Draws a scan into its folder as inversion.png, or where one says, and returns the path."""
-    found = read_scan(directory)
-    with plt.rc_context(STYLE), contents_of(Path(directory) / "inversion.json"):
-        return save(draw(found), Path(output) if output else Path(directory) / "inversion.png")
-
-
 OUTCOMES = {"bracket": "the range is narrow enough", "indistinct": "what is left is within the uncertainty of the runs",
             "not found": "no change of places in the range"}
 
@@ -79,7 +56,7 @@ OUTCOMES = {"bracket": "the range is narrow enough", "indistinct": "what is left
 def commands(scan):
     """The words that make a scan again, or find it finished: range and end are those that it had, given or by default."""
     words = [*(["mpirun", "-n", str(scan["ranks"])] if scan["ranks"] > 1 else []), "polybed", "inversion", scan["case"]]
-    words += [*(word for override in scan["overrides"] for word in ("--set", override)), "--scan", scan["scan"]]
+    words += [*words_of(scan["overrides"]), "--scan", scan["scan"]]
     for option, value in (("--from", f"{scan['from_m_s']!r} m/s"), ("--to", f"{scan['to_m_s']!r} m/s"),
                           ("--until", f"{scan['until_s']!r} s")):
         words += [option, value]
@@ -128,26 +105,6 @@ def text_of(found, path):
     return page(title_of(found), "inversion velocity by runs \u00b7 " + file_name(found["case"]), Html().join(body))
 
 
-def write_page(directory):
-    """Puts DIR/inversion.html in place whole and returns its path."""
-    path = Path(directory) / "inversion.json"
-    found = read_scan(directory)
-    with contents_of(path):
-        content = text_of(found, path)
-    return put_text(path.with_suffix(".html"), content)
-
-
-def drawn(directory):
-    """Makes picture and page of a scan, and returns their paths as lines."""
-    return f"{picture(directory)}\n{write_page(directory)}"
-
-
-def main(arguments=None):
-    parser = argparse.ArgumentParser(prog="polybed.drawing.inversion_scan", description="Draws a scan for the inversion velocity.")
-    parser.add_argument("directory", help="folder of inversion.json")
-    directory = parser.parse_args(arguments).directory
-    return made(lambda: [drawn(directory)])
-
-
-if __name__ == "__main__":
-    sys.exit(main())
+def drawn(path, out=None):
+    """Makes picture and page of a scan, and returns their paths."""
+    return [*record_drawn(path, "polybed inversion", draw, out=out), *([] if out else [record_page(path, "polybed inversion", text_of)])]

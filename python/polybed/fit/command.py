@@ -2,7 +2,6 @@
 
 import argparse
 import json
-import sys
 import time
 from pathlib import Path
 
@@ -12,8 +11,9 @@ from polybed.fit import errors
 from polybed.fit.fitting import Problem
 from polybed.fit.page import page, write_errors
 from polybed.fit.rows import read_points
-from polybed.runner import call
+from polybed.runner import answer_of
 from polybed.study import output_folder
+from polybed.study.cases import laws_of
 from polybed.ending import DONE, NUMBERS, WRONG_CASE, StudyError, answer, guarded
 from polybed.study.record import draw, remark, write_record
 
@@ -48,7 +48,7 @@ def parser():
 
 
 def published_of(form):
-    return json.loads(call("list", "--json"))["drag_forms"][form]
+    return answer_of("list")["drag_forms"][form]
 
 
 def interval_of(problem, drawn):
@@ -75,10 +75,9 @@ def law_file(form, constants, **members):
 def partition_bands(points, law):
     """The band of the law with each partition, on points with more than one size; empty without any."""
     mixtures = [p for p in points if len(p.net) > 1]
-    roles = {role["role"]: [one["law"] for one in role["laws"]] for role in json.loads(call("list", "--json"))["roles"]}
     one_size = errors.band_of(points, errors.net_by_program(points, law))["one_size"]
     bands = {}
-    for partition in roles["partition"] if mixtures else ():
+    for partition in laws_of("partition") if mixtures else ():
         bands[partition] = errors.band_of(mixtures, errors.net_by_program(mixtures, law, partition)) | {"one_size": one_size}
     return bands
 
@@ -166,7 +165,7 @@ def make(given):
         record = fit(given, folder)
         text = write_record(folder / "fit.json", record)
     if given.picture:
-        draw("polybed.drawing.fit", "draw", folder, "fit.png", given.quiet or given.json)
+        draw(folder / "fit.json", "fit.png", given.quiet or given.json)
     answer(text if given.json else told(record))
     worst = record["constraints"]["greatest_violation"]
     if worst > 0.01:
@@ -175,10 +174,7 @@ def make(given):
     return DONE
 
 
-def main(arguments):
+def main(arguments=None):
     given = parser().parse_args(arguments)
     return guarded(lambda: make(given))
 
-
-if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:]))

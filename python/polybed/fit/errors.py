@@ -1,35 +1,22 @@
 """Errors of laws on points, as the program evaluates them, and the band that follows."""
 
-import csv
-import json
-import tempfile
-from pathlib import Path
-
 import numpy as np
 
-from polybed.runner import call
+from polybed.runner import asked
 
 FINE = 0.5  # y below which a size is fine: ratios with it are less certain
 
 
 def net_by_program(points, law, partition="none"):
-    """n_j of every size of every point by `polybed drag`; law: of the menu or "file:LAW.json"."""
+    """n_j of every size of every point by the program; law: of the menu or "file:LAW.json"."""
     found = [None] * len(points)
-    with tempfile.TemporaryDirectory() as folder:
-        for count in sorted({len(p.share) for p in points}):
-            of = [n for n, p in enumerate(points) if len(p.share) == count]
-            path = Path(folder) / f"points-{count}.csv"
-            with open(path, "w", encoding="utf-8", newline="") as file:
-                rows = csv.writer(file)
-                names = [f"{what}{j}" for j in range(1, count + 1) for what in "xD"]
-                rows.writerow(["eps", "Re", *(names if count > 1 else [])])
-                for p in (points[n] for n in of):
-                    sizes = [value for pair in zip(p.share, p.diameter) for value in pair]
-                    rows.writerow([repr(float(value)) for value in (p.voidage, p.reynolds, *(sizes if count > 1 else []))])
-            options = ["--partition", partition] if count > 1 else []
-            answers = json.loads(call("drag", "--law", law, *options, "--csv", path, "--json"))["rows"]
-            for n, row in zip(of, answers):
-                found[n] = np.array([row[f"n_{j}"] for j in range(1, count + 1)] if count > 1 else [row["n"]])
+    for mixed in (False, True):
+        of = [n for n, p in enumerate(points) if (len(p.share) > 1) == mixed]
+        sizes = [[float(value) for pair in zip(points[n].share, points[n].diameter) for value in pair] if mixed else [] for n in of]
+        answers = asked("drag", law=law, partition=partition if mixed else "none",
+                        points=[[float(points[n].voidage), float(points[n].reynolds), *own] for n, own in zip(of, sizes)]) if of else []
+        for n, answer in zip(of, answers):
+            found[n] = np.array([answer[f"n_{j + 1}"] for j in range(len(points[n].share))] if mixed else [answer["n"]])
     return found
 
 

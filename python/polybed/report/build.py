@@ -1,5 +1,6 @@
-"""Puts the page of a run together."""
+"""Puts the page of a run together: what `polybed report` hands over to."""
 
+import argparse
 import json
 import time
 from pathlib import Path
@@ -7,6 +8,7 @@ from pathlib import Path
 from polybed import page
 from polybed.drawing.style import length_unit
 from polybed.drawing.units import text
+from polybed.ending import made
 from polybed.files import contents_of
 from polybed.in_place import in_place
 from polybed.read import Snapshot
@@ -92,3 +94,10 @@ def write(directory):
 def told(path, size, seconds):
     """What a command says of a page."""
     return f"{path} ({size / 1e6:.2g} MB, made in {seconds:.2g} s)"
+
+
+def main(arguments=None):
+    parser = argparse.ArgumentParser(prog="polybed report", description="Makes report.html of a finished or a running run.")
+    parser.add_argument("run", help="run directory")
+    directory = parser.parse_args(arguments).run
+    return made(lambda: [told(*write(directory))])

@@ -1,10 +1,7 @@
 """Serves a page that follows a run, on the loopback address: what `polybed watch` hands over to.
 
-    python3 -m polybed.report.watch RUN [--port N]
-
 The page is report.html with the progress above it; it asks for new data as long as the run goes on. The server ends with the run, once
-a browser that looks has had the last state. Exit codes are those of polybed: 0 done, 2 the command is wrong, 4 a file or a package is
-missing, 130 stopped.
+a browser that looks has had the last state.
 """
 
 import argparse
@@ -17,18 +14,15 @@ from collections import Counter
 from http import HTTPStatus
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 
-from polybed.packages import needed
-
-with needed(__name__ == "__main__"):
-    from polybed.drawing.units import text
-    from polybed.ending import DONE, guarded
-    from polybed.files import FAULTS, contents_of, opened
-    from polybed.page import markup, section
-    from polybed.read import Snapshot
-    from polybed.record import case_of
-    from polybed.report import sections
-    from polybed.report.build import drawn, embedded, page_of, parts, told, under, write
-    from polybed.study.output_folder import writes
+from polybed.drawing.units import text
+from polybed.ending import DONE, guarded
+from polybed.files import FAULTS, contents_of, opened
+from polybed.page import markup, section
+from polybed.read import Snapshot
+from polybed.record import case_of
+from polybed.report import sections
+from polybed.report.build import drawn, embedded, page_of, parts, told, under, write
+from polybed.study.output_folder import writes
 
 LOOPBACK = "127.0.0.1"
 RENEWED = 2.0  # s between two looks at the run
@@ -216,7 +210,3 @@ def main(arguments=None):
     parser.add_argument("--port", type=int, default=0, help="default: any that is free")
     options = parser.parse_args(arguments)
     return guarded(lambda: serve(options.run, options.port) or DONE, "")
-
-
-if __name__ == "__main__":
-    sys.exit(main())

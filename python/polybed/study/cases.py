@@ -1,16 +1,10 @@
 """Cases as the program resolves them: whole, in SI, with every key; and in what two of them differ."""
 
-import json
 import tomllib
 
-from polybed.runner import call
+from polybed.runner import answer_of, words_of
 
 FREE = ("tfm.", "dem.", "output.")  # tables that may differ between runs of one case
-
-
-def words_of(overrides):
-    """Overrides as the program takes them."""
-    return [word for override in overrides for word in ("--set", override)]
 
 
 class Case:
@@ -18,7 +12,7 @@ class Case:
 
     def __init__(self, path, overrides, until=None):
         end = ["--until", until] if until else []
-        found = json.loads(call("check", path, *words_of(overrides), *end, "--resolved", "--json"))
+        found = answer_of("check", path, *words_of(overrides), *end, "--resolved")
         self.path, self.overrides = str(path), found["overrides"]  # the end among them
         self.text, self.hash, self.scan_hash = found["case"], found["hash"], found["scan_hash"]
         self.git_commit = found["git_commit"]  # of the program
@@ -66,10 +60,15 @@ def keys_of(text):
     return keys
 
 
+def laws_of(role):
+    """The laws of a role of [effects], by their names."""
+    return [law["law"] for found in answer_of("list")["roles"] if found["role"] == role for law in found["laws"]]
+
+
 def roles_in_both_models():
     """Names of the effects that act in either model."""
     models = {}
-    for role in json.loads(call("list", "--json"))["roles"]:
+    for role in answer_of("list")["roles"]:
         models.setdefault(role["role"], set()).update(role["models"].split(", "))
     return {name for name, found in models.items() if {"tfm", "dem"} <= found}
 

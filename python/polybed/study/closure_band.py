@@ -8,13 +8,13 @@ which `python3 -m polybed.study.closure_band ROWS...` makes of tests/data/lbm; t
 import json
 import math
 import sys
-import tempfile
 from pathlib import Path
 
 from polybed.files import contents_of, read_text
 from polybed.errors import ProgramError
-from polybed.runner import call
+from polybed.runner import asked
 from polybed.ending import FILE, WRONG_CASE, StudyError, guarded
+from polybed.study.cases import laws_of
 
 BANDS = Path(__file__).with_name("closure_bands.json")
 WIDEST = 0.5  # of a tilt, as the law file has it
@@ -75,12 +75,8 @@ def tilt_of(ratio, law, partition, composition, voidage, reynolds):
     composition: pairs of share and diameter
     """
     mean = 1 / sum(x / d for x, d in composition)
-    with tempfile.TemporaryDirectory() as folder:
-        path = Path(folder) / "point.csv"
-        names = ",".join(f"x{j},D{j}" for j in range(1, len(composition) + 1))
-        cells = ",".join(f"{x!r},{d!r}" for x, d in composition)
-        path.write_text(f"eps,Re,{names}\n{voidage!r},{reynolds!r},{cells}\n", encoding="utf-8")
-        row = json.loads(call("drag", "--law", law, "--partition", partition, "--csv", path, "--json"))["rows"][0]
+    sizes = [value for pair in composition for value in pair]
+    [row] = asked("drag", law=law, partition=partition, points=[[voidage, reynolds, *sizes]])
     order = sorted(range(len(composition)), key=lambda j: composition[j][1])
     fine, coarse = (row[f"f_{j + 1}"] * (composition[j][1] / mean - 1) / row[f"n_{j + 1}"] for j in (order[0], order[-1]))
     slope = fine - coarse
@@ -94,12 +90,11 @@ def every_band(rows):
     from polybed.fit.errors import band_of as band_on, net_by_program
     from polybed.fit.rows import read_points
     points = read_points(rows)
-    roles = {role["role"]: [law["law"] for law in role["laws"]] for role in json.loads(call("list", "--json"))["roles"]}
     bands = {}
-    for law in roles["drag"]:
+    for law in laws_of("drag"):
         if law.startswith("file:"):
             continue
-        for partition in ("none", *roles["partition"]):
+        for partition in ("none", *laws_of("partition")):
             try:
                 nets = net_by_program(points, law, partition)
             except ProgramError:  # of a law that cannot be shared

@@ -15,17 +15,13 @@ import sys
 import tempfile
 from pathlib import Path
 
-from polybed.packages import needed
-
-with needed(__name__ == "__main__"):
-    from polybed.runner import call
-    from polybed.study import output_folder
-    from polybed.study.cases import Case, words_of
-    from polybed.study.closure_band import band_of, tilt_of, width_of, write_moved
-    from polybed.ending import DONE, NUMBERS, WRONG_CASE, StudyError, answer, guarded
-    from polybed.study.record import draw, remark, write_record
-    from polybed.runner import flags, has_checkpoint, run
-    from polybed.study.stress_uncertainty import late_means
+from polybed.study import output_folder
+from polybed.study.cases import Case
+from polybed.study.closure_band import band_of, tilt_of, width_of, write_moved
+from polybed.ending import DONE, NUMBERS, WRONG_CASE, StudyError, answer, guarded
+from polybed.study.record import draw, remark, write_record
+from polybed.runner import answer_of, call, flags, has_checkpoint, run, words_of
+from polybed.study.stress_uncertainty import late_means
 
 FINE = 0.5  # y below which the ratio has a band of its own
 SMALL = 0.1  # of the band: the step of the linearised answer
@@ -104,7 +100,7 @@ def base_record(request, bed, directions):
 
 def balance(request, overrides, near=None):
     """The inversion point of a case; that nearest to a voidage. None without one."""
-    found = json.loads(call("inversion", request["case"], *words_of(overrides), "--method", request["method"], "--json"))
+    found = answer_of("inversion", request["case"], *words_of(overrides), "--method", request["method"])
     roots = found["roots"]
     if near is None or not roots:
         return found, roots[-1] if roots else None
@@ -162,7 +158,7 @@ def make_inversion(request):
         with output_folder.taken(folder):
             write_record(folder / "closure_uncertainty.json", record)
             if request["picture"]:
-                draw("polybed.drawing.closure_uncertainty", "draw", folder, "picture", True)
+                draw(folder / "closure_uncertainty.json", "picture", True)
     velocity = record["velocity_m_s"]
     if request["json"]:
         band = None if velocity["low"] is None else [velocity["low"], velocity["high"]]
@@ -229,7 +225,7 @@ def make_tfm(request):
     write_record(Path(request["directory"]) / "closure_uncertainty.json", record)
     tell_tfm(record)
     if request["picture"]:
-        draw("polybed.drawing.closure_uncertainty", "draw", Path(request["directory"]), "picture", True)
+        draw(Path(request["directory"], "closure_uncertainty.json"), "picture", True)
     return DONE
 
 
@@ -237,7 +233,3 @@ def main(arguments=None):
     [request] = sys.argv[1:] if arguments is None else arguments
     request = json.loads(request)
     return guarded(lambda: make_tfm(request) if request["kind"] == "tfm" else make_inversion(request))
-
-
-if __name__ == "__main__":
-    sys.exit(main())

@@ -1,30 +1,21 @@
-"""Both models on one case, or two runs of it, measured over the same window: what `polybed compare` hands over to.
-
-    python3 -m polybed.study.compare CASE [OPTIONS]
-
-Exit codes are those of polybed.
-"""
+"""Both models on one case, or two runs of it, measured over the same window: what `polybed compare` hands over to."""
 
 import argparse
 import os
 import shlex
-import sys
 from pathlib import Path
 
-from polybed.packages import needed
-
-with needed(__name__ == "__main__"):
-    from polybed.files import contents_of, read_json
-    from polybed.folder import read_record
-    from polybed.program import name_of
-    from polybed.study import compare_report as report
-    from polybed.study.cases import Case, differences, roles_in_both_models, words_of
-    from polybed.ending import DONE, FILE, WRONG_CASE, StudyError, answer, guarded
-    from polybed.study.measured import measured
-    from polybed.study.output_folder import taken
-    from polybed.study.record import draw, write_record
-    from polybed.runner import flags, has_checkpoint, ranks, run
-    from polybed.study.scores import MODELS, add_inversion, compare
+from polybed.files import contents_of, read_json
+from polybed.folder import read_record
+from polybed.program import name_of
+from polybed.study import compare_report as report
+from polybed.study.cases import Case, differences, roles_in_both_models
+from polybed.ending import DONE, FILE, WRONG_CASE, StudyError, answer, guarded
+from polybed.study.measured import measured
+from polybed.study.output_folder import taken
+from polybed.study.record import draw, write_record
+from polybed.runner import flags, has_checkpoint, ranks, run, words_of
+from polybed.study.scores import MODELS, add_inversion, compare
 
 
 def record_of(directory, model):
@@ -110,7 +101,7 @@ def compare_runs(options, case, directories):
     more = f"\nto go on: {command_to_go_on(options, records['tfm']['time_s'])}" if drifts else ""
     answer(text if options.json else f"{report.table(plain)}\n{path}{more}")
     if options.picture:
-        draw("polybed.comparison", "write_page", options.output, "page", options.json or options.quiet)
+        draw(path, "page", options.json or options.quiet)
 
 
 def make(options):
@@ -146,7 +137,3 @@ def parsed(arguments):
 def main(arguments=None):
     options = parsed(arguments)
     return guarded(lambda: make(options))
-
-
-if __name__ == "__main__":
-    sys.exit(main())

@@ -1,8 +1,6 @@
 """The inversion velocity by runs of one model or of both: what `polybed inversion --scan` hands over to.
 
-    python3 -m polybed.study.inversion REQUEST
-
-REQUEST is a JSON object: what the command line says, with velocities in m/s. The runs lie in folders called by their velocity and the
+Its argument is a JSON object: what the command line says, with velocities in m/s. The runs lie in folders called by their velocity and the
 hash of their case, so that a scan that is made again finds those that are finished.
 """
 
@@ -12,21 +10,18 @@ import sys
 from contextlib import suppress
 from pathlib import Path
 
-from polybed.packages import needed
-
-with needed(__name__ == "__main__"):
-    from polybed.files import contents_of, read_bytes
-    from polybed.folder import read_record
-    from polybed.record import drift_lines
-    from polybed.study import inversion_report as report
-    from polybed.study.cases import Case, hash_of, words_of
-    from polybed.ending import DONE, WRONG_CASE, StudyError, answer, guarded
-    from polybed.study.inversion_search import Mean, search
-    from polybed.study.measured import means_of
-    from polybed.study.output_folder import taken
-    from polybed.study.record import draw, write_record
-    from polybed.runner import flags, has_checkpoint, ranks, run
-    from polybed.study.stress_uncertainty import moved_table
+from polybed.files import contents_of, read_bytes
+from polybed.folder import read_record
+from polybed.record import drift_lines
+from polybed.study import inversion_report as report
+from polybed.study.cases import Case, hash_of
+from polybed.ending import DONE, WRONG_CASE, StudyError, answer, guarded
+from polybed.study.inversion_search import Mean, search
+from polybed.study.measured import means_of
+from polybed.study.output_folder import taken
+from polybed.study.record import draw, write_record
+from polybed.runner import flags, has_checkpoint, ranks, run, words_of
+from polybed.study.stress_uncertainty import moved_table
 
 RAMP_SHARE = 0.02  # of a run, in which the velocity goes from that of the run before to its own: far from the window, the last quarter
 SURFACES = ("hamaker_constant", "cohesion_gap", "asperity_radius")  # keys that a choice of cohesion sets
@@ -150,14 +145,10 @@ def make(request):
         text = write_record(path, record_of(request, case, scans))
         answer(text if request["json"] else f"{report.findings(scans, request['force_balance'], request['beside'])}{path}")
         if request["picture"]:
-            draw("polybed.drawing.inversion_scan", "drawn", directory, "picture", not speaks(request))
+            draw(path, "picture", not speaks(request))
     return DONE
 
 
 def main(arguments=None):
     [request] = sys.argv[1:] if arguments is None else arguments
     return guarded(lambda: make(json.loads(request)))
-
-
-if __name__ == "__main__":
-    sys.exit(main())

@@ -1,7 +1,6 @@
 """What runs have measured: columns of their histories, and what `polybed measure` says: means over a window of time with the half-widths
 of their 95 % intervals."""
 
-import json
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import NamedTuple
@@ -9,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from polybed.files import DamagedError, FormatError
-from polybed.runner import call
+from polybed.runner import answer_of, asked
 from polybed.read import read
 from polybed.record import drift_lines
 
@@ -109,7 +108,7 @@ def means_of(directory, beside=None, begin=None, slabs=None):
     """
     options = {"--beside": beside, "--begin": begin, "--slabs": slabs}
     words = [word for name, value in options.items() if value is not None for word in (name, value)]
-    found = json.loads(call("measure", directory, "--json", *words))
+    found = answer_of("measure", directory, *words)
     if found["in_window"] is None:
         raise FormatError(f"{directory}: a history too short for means")
     runs = [InWindow(found[name]) for name in ("in_window", "beside") if name in found]
@@ -121,6 +120,5 @@ def statistics_of(series=(), ratios=()):
     def plain(values):
         return [value if np.isfinite(value) else None for value in map(float, values)]
 
-    asked = {"series": [plain(values) for values in series],
-             "ratios": [{"above": plain(above), "below": plain(below)} for above, below in ratios]}
-    return json.loads(call("measure", "--series", "-", "--json", given=json.dumps(asked)))
+    return asked("means", series=[plain(values) for values in series],
+                 ratios=[{"above": plain(above), "below": plain(below)} for above, below in ratios])

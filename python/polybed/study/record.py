@@ -1,6 +1,5 @@
 """What a study leaves and says: its record, whole or not at all, a picture of it, and remarks."""
 
-import importlib
 import json
 import sys
 from contextlib import suppress
@@ -33,14 +32,14 @@ def remark(text):
         print(text, file=sys.stderr, flush=True)
 
 
-def draw(module, function, directory, what, quiet):
-    """Has a module of the package draw a record's folder, and says where the picture is, or why there is no `what`: the record is
-    complete without. quiet: says nothing"""
+def draw(path, what, quiet):
+    """Draws a record, and says where the pictures are, or why there is no `what`: the record is complete without. quiet: says nothing"""
     try:
-        path = getattr(importlib.import_module(module), function)(directory)
+        from polybed.plot import study_drawn  # matplotlib takes a second to be imported
+        paths = study_drawn(path)
     except Exception as error:  # whatever is wrong with a picture, the study has ended well
         if not quiet:
             remark(f"no {what}: {error}")
     else:
         if not quiet:
-            answer(path)
+            answer("\n".join(map(str, paths)))

@@ -11,18 +11,14 @@ import os
 import sys
 from pathlib import Path
 
-from polybed.packages import needed
-
-with needed(__name__ == "__main__"):
-    from polybed.calibration.fit import Table
-    from polybed.calibration.service import Service
-    from polybed.in_place import in_place
-    from polybed.solids_table import read_table
-    from polybed.study.cases import Case, words_of
-    from polybed.ending import DONE, WRONG_CASE, StudyError, guarded
-    from polybed.study.measured import means_of
-    from polybed.study.record import remark, write_record
-    from polybed.runner import flags, has_checkpoint, run
+from polybed.calibration.fit import Table
+from polybed.in_place import in_place
+from polybed.solids_table import read_table
+from polybed.study.cases import Case
+from polybed.ending import DONE, WRONG_CASE, StudyError, guarded
+from polybed.study.measured import means_of
+from polybed.study.record import remark, write_record
+from polybed.runner import asked, flags, has_checkpoint, run, words_of
 
 
 MOVED = ("p_ratio", "mu_ratio", "p_bed")  # pressures and viscosities of a table
@@ -48,8 +44,7 @@ def require_rising(table, sigma, moved):
     """Raises StudyError if the pressure of a moved table of sheared boxes falls; the model that reads a bed's pressure looks at that itself."""
     if read_table(moved).attributes["regime"] == "bed":
         return
-    with Service() as service:
-        falls = service.ask("table", moved)["falls"]
+    falls = asked("table", table=moved)["falls"]
     if falls:
         raise StudyError(WRONG_CASE, f"{table} moved by {sigma:+g} standard errors: its pressure falls {falls[0]}")
 
@@ -98,7 +93,3 @@ def make(request):
 def main(arguments=None):
     [request] = sys.argv[1:] if arguments is None else arguments
     return guarded(lambda: make(json.loads(request)))
-
-
-if __name__ == "__main__":
-    sys.exit(main())

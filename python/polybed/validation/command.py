@@ -2,7 +2,6 @@
 
 import argparse
 import datetime
-import json
 import math
 import shlex
 from pathlib import Path
@@ -11,8 +10,8 @@ from polybed.ending import DONE, FILE, NUMBERS, WRONG_CASE, StudyError, answer, 
 from polybed.folder import read_record
 from polybed.in_place import put_text
 from polybed.program import finished
-from polybed.runner import call, flags, has_checkpoint, run, sources
-from polybed.study.cases import Case, words_of
+from polybed.runner import call, flags, has_checkpoint, run, sources, words_of
+from polybed.study.cases import Case
 from polybed.study.output_folder import taken
 from polybed.study.record import json_text, remark
 from polybed.validation import report

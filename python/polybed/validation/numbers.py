@@ -3,7 +3,6 @@
 Means, intervals and windows are those of polybed.study.
 """
 
-import json
 import math
 from typing import NamedTuple
 
@@ -13,7 +12,7 @@ from polybed.errors import PlainError
 from polybed.files import FormatError, contents_of, finite
 from polybed.read import read
 from polybed.record import case_of, drift_lines
-from polybed.runner import call
+from polybed.runner import answer_of, words_of
 from polybed.study.measured import history_of, means_of, statistics_of, within
 from polybed.validation.entries import chosen_rows, script_of
 
@@ -67,8 +66,7 @@ def measured_number(entry, run, compare):
 
 
 def inversion_of(entry, run):
-    words = [word for override in run.overrides() for word in ("--set", override)]
-    return json.loads(call("inversion", entry.case, *words, "--json"))
+    return answer_of("inversion", entry.case, *words_of(run.overrides()))
 
 
 def inversion_interval(found):

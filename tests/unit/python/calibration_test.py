@@ -4,11 +4,14 @@
 import json
 import math
 import os
+import signal
 import sys
 import tempfile
+import threading
 import unittest
-from unittest import mock
 from pathlib import Path
+from types import SimpleNamespace
+from unittest import mock
 
 import h5py
 import numpy as np
@@ -17,13 +20,13 @@ os.environ["POLYBED"], PACKAGE = os.path.abspath(sys.argv[1]), sys.argv[2]
 sys.path.insert(0, PACKAGE)
 
 from polybed.calibration import bed, fit
-from polybed.calibration.boxes import MEANS, SINGLE, read_box, run_all
+from polybed.calibration.boxes import MEANS, SINGLE, Boxes, read_box
 from polybed.calibration.check import deviation, deviation_lines, points_between
 from polybed.calibration.plan import Plan, Point
-from polybed.calibration.service import Service
 from polybed.calibration.text import box_lines
 from polybed.ending import NUMBERS, StudyError
-from polybed.runner import running
+from polybed.errors import ProgramError
+from polybed.runner import asked, running
 from polybed.solids_table import checksum, read_table
 from polybed.study.stress_uncertainty import moved_table
 
@@ -57,7 +60,7 @@ class Plans(unittest.TestCase):
         self.assertEqual(len(boxes), 5 * 2 * 2)
         self.assertEqual([box.seed for box in boxes[:2]], [1, 2])
         self.assertEqual((boxes[2].restitution, boxes[4].phi), (0.9, 0.2))
-        self.assertEqual(boxes[1].text(), "dry 0.1 0 0.8 0 0 0 0 2")
+        self.assertEqual(boxes[1], Point("dry", 0.1, 0, 0.8, 0, 0, False, False, 2))
 
     def test_dry_boxes_of_two_species_are_also_pushed_apart(self):
         boxes = plan_of(binary=True, axes=DRY["axes"] | {"x2": [0.3, 0.5]}).boxes()
@@ -232,8 +235,7 @@ class Scratch(unittest.TestCase):
         table.attributes |= {"filetype": "polybed solids table", "version": 1, "git_commit": "", "created": "", "case_hash": "",
                              "size_ratio": 1.0}
         table.write(self.folder / "table.h5")
-        with Service() as service:
-            return service.ask("table", self.folder / "table.h5")
+        return asked("table", table=self.folder / "table.h5")
 
 
 class Files(Scratch):
@@ -248,18 +250,25 @@ class Files(Scratch):
             path.write_text(wrong)
             self.assertIsNone(read_box(path, "0123"), wrong)
 
+    def six_boxes(self, script):
+        """Boxes with a program that does this for each line that it is asked."""
+        program = self.folder / "polybed"
+        program.write_text(f"#!/bin/sh\nwhile read line; do {script}; done\n")
+        program.chmod(0o755)
+        self.enterContext(mock.patch.dict(os.environ, POLYBED=str(program)))
+        door = SimpleNamespace(ask=lambda *_, **__: [[str(n), 1.0] for n in range(6)])
+        options = SimpleNamespace(output=self.folder, jobs=3, case="case.toml", set=[], quiet=True)
+        return Boxes(door, options, [Point("dry", 0.1, 0, 0.9, 0, 0, seed=n) for n in range(6)])
+
     def test_jobs_run_side_by_side_and_those_that_fail_are_named(self):
-        done = []
-        with mock.patch.dict(os.environ, POLYBED="/bin/sh"):
-            failed = run_all({n: ["-c", f"exit {n % 2}"] for n in range(6)}, 3, done.append)
-        self.assertEqual((sorted(done), sorted(failed)), ([0, 2, 4], [1, 3, 5]))
+        boxes = self.six_boxes('case "$line" in *\'"seed": \'[135]*) exit 3;; *files*) echo null; echo "[]";; *) echo {};; esac')
+        self.assertEqual(sorted(boxes.run_as_processes()), [1, 3, 5])
+        self.assertEqual(boxes.done, [True, False] * 3)
 
     def test_jobs_are_ended_when_they_are_stopped(self):
-        def stop(place):
-            raise KeyboardInterrupt
-        jobs = {n: ["-c", "exec sleep 600" if n else "exit 0"] for n in range(4)}
-        with self.assertRaises(KeyboardInterrupt), mock.patch.dict(os.environ, POLYBED="/bin/sh"):
-            run_all(jobs, 2, stop)
+        threading.Timer(0.5, signal.pthread_kill, [threading.main_thread().ident, signal.SIGINT]).start()
+        with self.assertRaises(KeyboardInterrupt):
+            self.six_boxes("exec sleep 600").run_as_processes()
         self.assertEqual([child.args for child in running if child.poll() is None], [])
 
     def test_a_pressure_that_falls_is_refused_and_its_place_named(self):
@@ -276,7 +285,7 @@ class Files(Scratch):
 
     def test_a_table_that_no_run_reads_is_not_written(self):
         plan = plan_of()
-        with self.assertRaises(StudyError) as refused:
+        with self.assertRaises(ProgramError) as refused:
             self.judged(fit.fitted(plan, synthetic(plan, 0, lambda point: -1.0)))
         self.assertEqual(refused.exception.code, 4)
 
@@ -305,8 +314,7 @@ class Checks(Scratch):
     def deviation(self, table, box):
         self.judged(table)
         point = Point(table.attributes["regime"], box["solids_fraction"], box["stokes"], 0.9, 0.3, 0)
-        with Service() as service:
-            [ratios] = service.ask("ratios", self.folder / "table.h5", point.text())
+        [ratios] = asked("ratios", table=self.folder / "table.h5", points=[point._asdict()])
         return deviation(box, ratios, table.attributes["lambda"])
 
     def test_a_box_over_the_table_less_one_with_the_errors_of_both(self):
@@ -337,8 +345,7 @@ class Checks(Scratch):
         table = fit.fitted(plan, synthetic(plan, 0, lambda point: values[point.phi]))
         self.judged(table)
         phi = np.linspace(0.1, 0.4, 13)
-        with Service() as service:
-            read = service.ask("ratios", self.folder / "table.h5", *(Point("dry", one, 0, 0.9, 0, 0).text() for one in phi))
+        read = asked("ratios", table=self.folder / "table.h5", points=[Point("dry", one, 0, 0.9, 0, 0)._asdict() for one in phi])
         np.testing.assert_allclose([row[0] for row in read], fit.curve(list(values), list(values.values()))(phi), rtol=1e-13)
 
     def test_points_are_those_between_the_knots(self):
@@ -359,8 +366,8 @@ class Checks(Scratch):
         self.judged(self.table())
         with h5py.File(self.folder / "table.h5", "r+") as file:
             file["p_ratio"][0] = 0.81
-        with Service() as service, self.assertRaises(StudyError) as refused:
-            service.ask("table", self.folder / "table.h5")
+        with self.assertRaises(ProgramError) as refused:
+            asked("table", table=self.folder / "table.h5")
         self.assertEqual(refused.exception.code, 4)
 
     def test_a_table_is_moved_by_its_errors(self):

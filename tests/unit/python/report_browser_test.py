@@ -95,7 +95,7 @@ class Browser(unittest.TestCase):
         add_case(self.directory)
 
     def probed(self):
-        subprocess.run([sys.executable, "-m", "polybed.report", self.directory], check=True, env={"PYTHONPATH": PACKAGE},
+        subprocess.run([sys.executable, f"{PACKAGE}/polybed/isolated.py", "polybed.report.build", self.directory], check=True, env={"PYTHONPATH": PACKAGE},
                        stdout=subprocess.DEVNULL)
         text = (self.directory / "report.html").read_text()
         self.assertEqual(text.count("</body>"), 1)
@@ -128,7 +128,7 @@ class BrowserOfFields(Browser):
 
     def test_nothing_runs_that_the_page_does_not_name(self):
         """What would get past the escapes: neither a script nor a handler of an element runs, and nothing is loaded."""
-        subprocess.run([sys.executable, "-m", "polybed.report", self.directory], check=True, env={"PYTHONPATH": PACKAGE},
+        subprocess.run([sys.executable, f"{PACKAGE}/polybed/isolated.py", "polybed.report.build", self.directory], check=True, env={"PYTHONPATH": PACKAGE},
                        stdout=subprocess.DEVNULL)
         path = self.directory / "report.html"
         evil = '<script>document.title="ran"</script><img src="data:," onerror="document.title=\'ran\'"><img src="picture.png">'
@@ -142,7 +142,7 @@ class BrowserOfFields(Browser):
         add_case(self.directory, state="running")
         with open(self.directory / ".polybed", "w") as mark:
             fcntl.flock(mark, fcntl.LOCK_EX)
-            child = subprocess.Popen([sys.executable, "-u", "-m", "polybed.report.watch", self.directory], stdout=subprocess.PIPE, text=True,
+            child = subprocess.Popen([sys.executable, "-u", f"{PACKAGE}/polybed/isolated.py", "polybed.report.watch", self.directory], stdout=subprocess.PIPE, text=True,
                                      env={"PYTHONPATH": PACKAGE})
             self.addCleanup(child.stdout.close)
             self.addCleanup(child.kill)

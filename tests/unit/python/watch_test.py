@@ -34,7 +34,7 @@ class Watch(unittest.TestCase):
         fcntl.flock(self.mark, fcntl.LOCK_EX)
 
     def start(self, **streams):
-        child = subprocess.Popen([sys.executable, "-u", "-m", "polybed.report.watch", self.directory], stdout=subprocess.PIPE, text=True, **streams,
+        child = subprocess.Popen([sys.executable, "-u", f"{PACKAGE}/polybed/isolated.py", "polybed.report.watch", self.directory], stdout=subprocess.PIPE, text=True, **streams,
                                  env={"PYTHONPATH": PACKAGE})
         self.addCleanup(child.stdout.close)
         self.addCleanup(child.kill)

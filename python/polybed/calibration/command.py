@@ -1,31 +1,22 @@
-"""Runs boxes of particles and makes a table of the solids stress: what `polybed calibrate` hands over to.
-
-    python3 -m polybed.calibration CASE [-o DIR] [-j N] [--set KEY=VALUE] [--plan | --check TABLE] [--bed TABLE] [--json] [--quiet]
-
-Exit codes are those of polybed: 0 done, 2 a wrong case or command, 3 a box failed or the table may not be used, 4 a file, 130 stopped.
-"""
+"""Runs boxes of particles and makes a table of the solids stress: what `polybed calibrate` hands over to."""
 
 import argparse
 import json
 import signal
-import sys
 import time
 from pathlib import Path
 
-from polybed.packages import needed
-
-with needed(__name__ == "__main__"):
-    from polybed.calibration import bed, fit
-    from polybed.calibration.boxes import Boxes
-    from polybed.calibration.check import deviation, deviation_lines, points_between
-    from polybed.calibration.output import ERR, OUT, duration, refusals, say
-    from polybed.calibration.plan import Plan
-    from polybed.calibration.service import Service
-    from polybed.calibration.text import box_lines, table_toml
-    from polybed.ending import DONE, FILE, WRONG_CASE, StudyError, guarded
-    from polybed.in_place import in_place, put_text
-    from polybed.runner import ranks
-    from polybed.solids_table import read_table
+from polybed.calibration import bed, fit
+from polybed.calibration.boxes import Boxes, asked_of
+from polybed.calibration.check import deviation, deviation_lines, points_between
+from polybed.calibration.output import ERR, OUT, duration, refusals, say
+from polybed.calibration.plan import Plan
+from polybed.calibration.text import box_lines, table_toml
+from polybed.ending import DONE, FILE, WRONG_CASE, StudyError, guarded
+from polybed.in_place import in_place, put_text
+from polybed.runner import Door, ranks
+from polybed.solids_table import read_table
+from polybed.study import output_folder
 
 
 # Axes of a table.
@@ -84,16 +75,16 @@ def show_plan(options, plan, boxes):
                     "expected_s": expected})
 
 
-def check_table(options, service, plan):
+def check_table(options, door, plan):
     """Runs points between the knots of a table and says how they compare."""
-    service.ask("table", options.check)  # ends for what is none
+    door.ask("table", table=options.check)  # ends for what is none
     table = read_table(options.check)
     if table.attributes["regime"] != plan.regime:
         raise StudyError(WRONG_CASE, f"{options.check} is a {table.attributes['regime']} table, the boxes of the case are {plan.regime}: "
                                   f"{plan.case['reason']}")
     points = points_between(table, plan.case["binary"])
-    boxes = Boxes(service, options, points).run()
-    ratios = service.ask("ratios", options.check, *(point.text() for point in points))
+    boxes = Boxes(door, options, points).run()
+    ratios = door.ask("ratios", table=options.check, points=asked_of(points))
     lines = deviation_lines(points, [deviation(box, read, table.attributes["lambda"]) for box, read in zip(boxes, ratios)])
     say(lines, options.people)
     put_text(options.output / "check.txt", lines, "surrogateescape")
@@ -141,7 +132,7 @@ def tested_lines(tested):
             f"with a solids fraction left out the fit is {left_out} off, {residual} beyond two standard errors"]
 
 
-def finish_sheared(options, service, plan, boxes, table):
+def finish_sheared(options, door, plan, boxes, table):
     """Sheared boxes: what they have measured, and the fitted table if it may be used."""
     if options.bed:
         of_bed = read_table(options.bed)
@@ -157,7 +148,7 @@ def finish_sheared(options, service, plan, boxes, table):
     fit.require_exchange(table)
     with in_place(options.output / "table.h5") as path:
         table.write(path)
-        shape = service.ask("table", path)
+        shape = door.ask("table", table=path)
         if shape["falls_in_shear_up_to"] > 0:
             say(f"at fixed shear rate without a fluid the pressure falls up to phi = {shape['falls_in_shear_up_to']:.3f}, as a dilute gas "
                 "does\n", options.people)
@@ -166,28 +157,30 @@ def finish_sheared(options, service, plan, boxes, table):
     say_table(options, plan, len(boxes), tested)
 
 
-def calibrate(options, service):
-    plan = Plan.of_case(service.ask("case", options.case, *options.set))
+def calibrate(options, door):
+    plan = Plan.of_case(door.ask("case", case=options.case, settings=options.set))
     if options.bed:
-        service.ask("bed", options.bed)  # ends for what is none
+        door.ask("bed", table=options.bed)  # ends for what is none
     if options.on_ranks and options.jobs > 1:
         raise StudyError(WRONG_CASE, "-j starts processes of its own: under mpirun the ranks run the boxes, leave it out")
-    if not options.plan:
-        service.ask("take", options.output)
-    if options.check:
-        return check_table(options, service, plan)
-    boxes = Boxes(service, options, plan.boxes())
-    show_plan(options, plan, boxes)
     if options.plan:
-        return None
+        return show_plan(options, plan, Boxes(door, options, plan.boxes()))
+    with output_folder.taken(options.output):
+        output_folder.subfolder(options.output, "boxes")
+        return check_table(options, door, plan) if options.check else make_table(options, door, plan)
+
+
+def make_table(options, door, plan):
+    boxes = Boxes(door, options, plan.boxes())
+    show_plan(options, plan, boxes)
     results = boxes.run()
     if plan.regime == "bed":
         return finish_bed(options, plan, results)
     table = fit.fitted(plan, results)
     while fit.add_seeds(plan, table):
-        results = Boxes(service, options, plan.boxes()).run()
+        results = Boxes(door, options, plan.boxes()).run()
         table = fit.fitted(plan, results)
-    return finish_sheared(options, service, plan, results, table)
+    return finish_sheared(options, door, plan, results, table)
 
 
 def main(arguments=None):
@@ -196,13 +189,9 @@ def main(arguments=None):
         signal.signal(stop, signal.default_int_handler)
 
     def work():
-        with Service() as service:
-            calibrate(options, service)
+        with Door() as door:
+            calibrate(options, door)
         if refusals:
             raise StudyError(FILE, f"standard output: cannot be written ({refusals[0].strerror})")
         return DONE
     return guarded(work, "stopped by the user; boxes that are finished are kept, the same command goes on")
-
-
-if __name__ == "__main__":
-    sys.exit(main())
