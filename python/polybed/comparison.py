@@ -3,7 +3,6 @@
 import shlex
 from pathlib import Path
 
-from polybed.drawing.units import fitting
 from polybed.page import Html, file_name, listing, markup, picture, section, source, table, warnings
 from polybed.page import page as whole_page
 
@@ -14,12 +13,11 @@ from polybed.drawing.profiles import shown_top
 from polybed.drawing.style import NAMES, STYLE
 from polybed.files import read_json
 from polybed.plot import record_page, stored_times
-from polybed.quantities import measure_words, unit_of_column
 from polybed.read import nearest, read
 from polybed.record import title_of_case
 from polybed.runner import words_of
 from polybed.drawing.inversion_scan import commands as scan_command
-from polybed.study.compare_report import with_error
+from polybed.study.compare_report import measure_cells, with_error
 
 
 def number(value, error=None):
@@ -69,12 +67,8 @@ def score_words(name):
 
 def measure_row(name, measure):
     """Words, numbers in the unit that fits, and the file."""
-    known = [abs(measure[model]) for model in ("tfm", "dem") if measure[model] is not None]
-    factor, unit = fitting(unit_of_column(name), max(known, default=0))
-    scaled = {key: None if value is None else value * factor for key, value in measure.items()}
-    return [measure_words(name) + (f" ({unit})" if unit else ""),
-            *(number(scaled[key], scaled[f"{key}_error"]) for key in ("tfm", "dem", "difference")),
-            "profiles.h5" if name == "interface_m" else "history.csv"]
+    title, *numbers = measure_cells(name, measure)
+    return [title, *(number(*pair) for pair in numbers), "profiles.h5" if name == "interface_m" else "history.csv"]
 
 
 def measures(found):

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import itertools
-import tomllib
 from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from polybed.overrides import flat
+from polybed.overrides import keys_of_case
 from polybed.packages import needed
 from polybed.quantities import unit_of_column
 
@@ -32,12 +31,10 @@ def frame(run: Run) -> Any:
 
 def keys_of(run: Run) -> dict[str, Any]:
     """The keys of a run's resolved case by dotted names, those of a species by its name. A velocity that is constant is one number."""
-    case = tomllib.loads(run.record.get("case", ""))
-    for name, entries in case.items():
-        if isinstance(entries, list):
-            case[name] = {str(entry.get("name", n)): entry for n, entry in enumerate(entries, start=1)}
-    constant = {key: value[0][1] for key, value in flat(case) if key.endswith("superficial_velocity") and isinstance(value, list) and len(value) == 1}
-    return dict(flat(case)) | constant
+    keys = keys_of_case(run.record.get("case", ""), named=True)
+    constant = {key: value[0][1] for key, value in keys.items()
+                if key.endswith("superficial_velocity") and isinstance(value, list) and len(value) == 1}
+    return keys | constant
 
 
 def table(runs: Iterable[Run]) -> pd.DataFrame:

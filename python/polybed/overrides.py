@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import tomllib
 from collections.abc import Iterator, Mapping
 from typing import Any
 
@@ -43,6 +44,15 @@ def flat(overrides: Overrides | None, table: str = "") -> Iterator[tuple[str, Va
             yield from flat(value, key + ".")
         else:
             yield key, plain(value, key)
+
+
+def keys_of_case(text: str, named: bool = False) -> dict[str, Value]:
+    """The keys of a resolved case by dotted names; tables of an array are counted from 1, or called by their names."""
+    case = tomllib.loads(text)
+    for name, entries in case.items():
+        if isinstance(entries, list):
+            case[name] = {str(entry.get("name", n) if named else n): entry for n, entry in enumerate(entries, start=1)}
+    return dict(flat(case))
 
 
 def words(overrides: Overrides | None) -> list[str]:

@@ -96,11 +96,6 @@ def picture(directory, time=None, output=None):
         return save(figure, Path(output) if output else run.directory / "picture.png")
 
 
-def film_path(folder):
-    """MP4 where ffmpeg can make one."""
-    return folder / ("animation.mp4" if animation.has_ffmpeg() else "animation.gif")
-
-
 def draw_one(run, what, time, folder, ending, rate=None, progress=None):
     """Draws one kind of picture of an open run and returns its path."""
     step = step_of(run, time)
@@ -108,7 +103,7 @@ def draw_one(run, what, time, folder, ending, rate=None, progress=None):
     if what in ("fields", "particles") and what not in kinds_of(run):
         raise StudyError(WRONG_CASE, f"--what {what}: {run.directory} holds no {what}; there are {', '.join(kinds_of(run))}")
     if what == "animation":
-        return animation.film(run, film_path(folder), rate, progress)
+        return animation.film(run, folder / ("animation.mp4" if animation.has_ffmpeg() else "animation.gif"), rate, progress)
     if what == "overview":
         figure = overview.draw(run, step)
     elif what == "fields":

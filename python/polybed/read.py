@@ -47,7 +47,7 @@ class Series:
         count = len(self)
         if not -count <= step < count:
             raise IndexError(f"{self._name} has {count} steps, none numbered {step}")
-        return self._run._field(step % count, self._name)
+        return self._run.fields_at(step % count, [self._name])[self._name]
 
     def __iter__(self):
         return (self[n] for n in range(len(self)))
@@ -81,7 +81,10 @@ class Run:
                 if "open" in file["grid"]:
                     values, cells = file["grid"]["open"][...], tuple(len(self.faces[axis]) - 1 for axis in "zyx")
                     self.open = fits(values, cells[3 - values.ndim :], "grid/open")
-        self.fields = self._field_names()
+        self.fields: list[str] = []
+        if len(self.time):
+            with self._open_step(0) as file:
+                self.fields = sorted(file["step"])
         self.particles = Particles(self._folder)
 
     def __repr__(self) -> str:
@@ -98,12 +101,6 @@ class Run:
     def _open_step(self, step):
         return open_hdf5(self._folder.file("fields", f"{step + 1:06d}.h5"), "polybed fields step")
 
-    def _field_names(self):
-        if len(self.time) == 0:
-            return []
-        with self._open_step(0) as file:
-            return sorted(file["step"])
-
     def fields_at(self, step, names):
         """Fields of a stored step by name, which is quicker than one by one."""
         cells = tuple(len(self.faces[axis]) - 1 for axis in "zyx")
@@ -114,9 +111,6 @@ class Run:
                 grid = cells if values.shape[:3] == cells else cells[1:]
                 found[name] = fits(values, (*grid, len(grid)) if name.startswith("u_") else grid, name)
         return found
-
-    def _field(self, step, name):
-        return self.fields_at(step, [name])[name]
 
     def field(self, name: str) -> Series:
         """A field over time, as a sequence of arrays [y][x] or [z][y][x], a vector with its components behind."""

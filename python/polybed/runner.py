@@ -133,6 +133,12 @@ def answer_of(*words: object, **options: Any) -> dict[str, Any]:
     return found
 
 
+def commit_and_build() -> tuple[str, str]:
+    """Of the program, which says "polybed VERSION (COMMIT), built with KIND"; the kind is empty for the usual one."""
+    commit, _, build = call("--version").partition("(")[2].partition(")")
+    return commit, build.partition(", built with ")[2].strip()
+
+
 def line_to_ask(question: str, about: dict[str, Any]) -> str:
     return json.dumps({"ask": question} | about, ensure_ascii=False, default=str) + "\n"
 

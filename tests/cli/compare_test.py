@@ -295,7 +295,8 @@ class Comparison(Scratch):
         # a scan of before its request was kept has no line, and the page says so
         old = {name: value for name, value in found.items() if name not in ("scan", "from_m_s", "to_m_s", "until_s", "ranks")}
         path.write_text(json.dumps(old))
-        text = page.page(self.folder / "scanned")
+        [written] = page.drawn(self.folder / "scanned/comparison.json")
+        text = written.read_text()
         self.assertNotIn("polybed inversion", text)
         self.assertIn("does not hold what its scan was asked for", text)
 

@@ -229,7 +229,7 @@ class Installed(Scratch):
         self.assertEqual((package, command), (str(python / "polybed/__init__.py"), str(self.folder / "bin/polybed")))
         self.assertGreater(float(velocity), 0)
         # and the installed program draws with the installed package, not with that of the sources
-        (python / "polybed/plot.py").write_text("print('drawn by what is installed')")
+        (python / "polybed/plot.py").write_text("def main():\n    print('drawn by what is installed')\n")
         case = self.folder / "share/polybed/cases/small-binary/case.toml"
         bare = {name: value for name, value in settings.items() if name != "PYTHONPATH"}
         ran = subprocess.run([self.folder / "bin/polybed", "tfm", case, "--until", "1 ms", "-o", self.folder / "run"],

@@ -81,19 +81,23 @@ class Boxes:
 
     def run_alone(self, n):
         """Likewise one box, by a program of its own."""
-        def finished():
-            self.done[n] = True
-            self.tell()
         try:
             with Door() as door:
                 door.ask("case", case=self.options.case, settings=self.options.set)
-                return self.run_by(door, [n], finished)
+                return self.run_by(door, [n], lambda: None)
         except StudyError:  # the program has ended
             return [n]
 
     def run_as_processes(self):
+        failed = []
         with side_by_side(self.options.jobs) as threads:
-            return [n for future in as_completed([threads.submit(self.run_alone, n) for n in self.left()]) for n in future.result()]
+            places = {threads.submit(self.run_alone, n): n for n in self.left()}
+            for future in as_completed(places):
+                failed += future.result()
+                if not future.result():
+                    self.done[places[future]] = True
+                    self.tell()
+        return failed
 
     def run_on_ranks(self):
         """The same by the ranks of the program. The boxes that other ranks have finished are known by their files."""

@@ -85,11 +85,6 @@ def model_of(scene, wanted):
     return model
 
 
-def sweep_options(given, scene):
-    return SweepOptions(model_of(scene, given.model), given.qoi, given.axes, target_of(given.target), budget_of(given.budget), given.clock,
-                        given.reference, given.quiet or given.json)
-
-
 def run_sweep(scene, options, runner):
     """A sweep from its first run to its recommendation: lines, reference, front, attribution. One process that starts others."""
     sweeper = Sweeper(scene, options, runner)
@@ -139,7 +134,9 @@ def sweep(given):
         raise StudyError(WRONG_CASE, f"{folder} contains a study already: --resume continues it, --force replaces it")
     if given.reference not in ("auto", "exact") and not (Path(given.reference) / "profiles.h5").exists():
         raise StudyError(FILE, f"--reference {given.reference}: no run directory")
-    options, overrides = sweep_options(given, scene), [*scene.overrides, *common_overrides(scene)]
+    options = SweepOptions(model_of(scene, given.model), given.qoi, given.axes, target_of(given.target), budget_of(given.budget), given.clock,
+                           given.reference, given.quiet or given.json)
+    overrides = [*scene.overrides, *common_overrides(scene)]
     with output_folder.taken(folder):
         found = run_sweep(scene, options, Runner(scene, overrides, output_folder.subfolder(folder, "runs"), given.resume))
         of = SweepOf(os.path.abspath(case), scene, overrides)

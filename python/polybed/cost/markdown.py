@@ -1,10 +1,8 @@
 """cost.md: the table of a sweep, what its error is made of, and advice."""
 
-from pathlib import Path
-
 from polybed.cost.judge import advice, settings_text
 from polybed.cost.sweep import REFERENCE as KIND_REFERENCE
-from polybed.cost.words import CLOCKS, REFERENCE, STATUS, part
+from polybed.cost.words import CLOCKS, REFERENCE, STATUS, case_name, part
 from polybed.cost.work import weighed
 
 
@@ -51,10 +49,9 @@ def shares_of(title, shares):
 
 def sweep_markdown(sweep, of):
     """The text of cost.md."""
-    path = Path(of.path)
-    name, reference = path.parent.name if path.name == "case.toml" else path.name, sweep.reference
+    reference = sweep.reference
     note = f" ({reference.note})" if reference.note else ""
-    lines = [f"{name} by polybed {sweep.options.model}; the bed is {'chaotic' if sweep.chaotic else 'not chaotic'}; computing times are "
+    lines = [f"{case_name(of.path)} by polybed {sweep.options.model}; the bed is {'chaotic' if sweep.chaotic else 'not chaotic'}; computing times are "
              f"{CLOCKS[sweep.options.clock]}",
              f"an error is the distance from the reference: {REFERENCE[reference.kind]}{note}", "", *advice(sweep), "", *table_of(sweep),
              *shares_of(f"what the error of {sweep.ranking} is made of", sweep.attribution),

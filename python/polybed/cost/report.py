@@ -8,7 +8,7 @@ from polybed.cost.judge import level_of, scale_of
 from polybed.cost.markdown import sweep_markdown
 from polybed.cost.work import VERSION, weighed
 from polybed.in_place import put_text
-from polybed.runner import call
+from polybed.runner import commit_and_build
 from polybed.study.record import json_text
 
 
@@ -20,10 +20,7 @@ class SweepOf:
     overrides: list
 
     def __post_init__(self):
-        """The program's commit, and what it was built with: "polybed VERSION (COMMIT), built with KIND"."""
-        version = call("--version")
-        self.commit = version.split("(", 1)[1].split(")")[0]
-        self.build = version.partition(", built with ")[2].strip()
+        self.commit, self.build = commit_and_build()
 
 
 def processor():

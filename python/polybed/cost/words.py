@@ -18,6 +18,12 @@ AXES = {"rtol": "relative tolerance (tfm.rtol)", "grid": "cells", "steps": "step
 CLOCKS = {"work": "counted work", "wall": "wall time"}
 
 
+def case_name(path):
+    """The case by its folder, as runs are called."""
+    parts = path.replace("\\", "/").split("/")
+    return parts[-2] if parts[-1] == "case.toml" and len(parts) > 1 else parts[-1]
+
+
 def in_words(axis, level):
     """A level of an axis: "relative tolerance (tfm.rtol) 0.001"."""
     return f"{AXES.get(axis, axis)} {level}"

@@ -2,7 +2,7 @@
 
 import matplotlib.pyplot as plt
 
-from polybed.cost.words import AXES, CLOCKS
+from polybed.cost.words import AXES, CLOCKS, case_name
 from polybed.drawing.style import COLOURS, GREY, NAMES, PALE, fitted, shortened
 from polybed.record import title_of_case
 
@@ -95,10 +95,4 @@ def draw(sweep):
 
 def title_of(sweep):
     """Title of the case, else its name."""
-    return title_of_case(sweep) or case_name(sweep)
-
-
-def case_name(sweep):
-    """The case by its folder, as runs are called."""
-    parts = sweep["case_path"].replace("\\", "/").split("/")
-    return parts[-2] if parts[-1] == "case.toml" and len(parts) > 1 else parts[-1]
+    return title_of_case(sweep) or case_name(sweep["case_path"])

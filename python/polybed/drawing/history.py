@@ -1,5 +1,7 @@
 """The run in time: heights, force balance, mixing, energies, contacts, steps; and the worst of every invariant against its limit."""
 
+import functools
+
 import matplotlib.pyplot as plt
 import numpy as np
 
@@ -80,17 +82,12 @@ def draw_ledger(axes, run):
     axes.legend(loc="center left", bbox_to_anchor=(1.01, 0.5), fontsize=8)
 
 
-def draw_contacts(axes, run):
-    axes.plot(run.history["time_s"], run.history["contacts"], color=GREY, linewidth=0.8)
+def draw_series(axes, time, values, unit, label, **line):
+    """A quantity in time, from 0 on, in the unit that fits."""
+    factor, shown = fitting(unit, np.nanmax(values, initial=0))
+    axes.plot(time, values * factor, color=GREY, **line)
     axes.set_ylim(bottom=0)
-    axes.set_ylabel("contacts")
-
-
-def draw_overlap(axes, run):
-    factor, unit = fitting("m", np.nanmax(run.history["max_overlap_m"], initial=0))
-    axes.plot(run.history["time_s"], run.history["max_overlap_m"] * factor, color=GREY, linewidth=0.8)
-    axes.set_ylim(bottom=0)
-    axes.set_ylabel(f"largest\noverlap ({unit})")
+    axes.set_ylabel(label + (f" ({shown})" if shown else ""))
 
 
 def draw_species(axes, run, values, unit, label):
@@ -101,15 +98,6 @@ def draw_species(axes, run, values, unit, label):
             axes.plot(run.history["time_s"], values[name] * factor, linewidth=1, **species_line(n))
     axes.set_ylim(bottom=0)
     axes.set_ylabel(f"{label}" + (f" ({shown})" if shown else ""))
-
-
-def draw_discharge(axes, run):
-    """Mass of all species that leaves in a second."""
-    time, rate = discharge_rate(run.history, run.species)
-    factor, unit = fitting("kg/s", rate.max())
-    axes.plot(time, rate * factor, color=GREY, linewidth=1)
-    axes.set_ylim(bottom=0)
-    axes.set_ylabel(f"discharge\nrate ({unit})")
 
 
 def draw_invariants(axes, run):
@@ -142,18 +130,18 @@ def panels(run):
         shares = recovery(history, run.kinds)
         chosen += [(1.2, lambda axes: draw_species(axes, run, left, "kg", "left the\ncolumn")),
                    (1.2, lambda axes: draw_species(axes, run, shares, "1", "recovery"))]
-        if len(discharge_rate(history, run.kinds)[0]):
-            chosen.append((1.2, lambda axes: draw_discharge(axes, run)))
+        time, rate = discharge_rate(history, run.kinds)
+        if len(time):
+            chosen.append((1.2, lambda axes: draw_series(axes, time, rate, "kg/s", "discharge\nrate", linewidth=1)))
     if "mixing" in history and len(run.species) > 1:
         chosen.append((1, lambda axes: draw_mixing(axes, run)))
     if set(LEDGER[:3]) <= history.keys():
         chosen.append((1.4, lambda axes: draw_energies(axes, run)))
     if set(LEDGER) <= history.keys():
         chosen.append((1.4, lambda axes: draw_ledger(axes, run)))
-    if "contacts" in history:
-        chosen.append((1, lambda axes: draw_contacts(axes, run)))
-    if "max_overlap_m" in history:
-        chosen.append((1, lambda axes: draw_overlap(axes, run)))
+    for column, unit, label in (("contacts", "1", "contacts"), ("max_overlap_m", "m", "largest\noverlap")):
+        if column in history:
+            chosen.append((1, functools.partial(draw_series, time=history["time_s"], values=history[column], unit=unit, label=label, linewidth=0.8)))
     if "dt_s" in history and (history["dt_s"] > 0).any():
         chosen.append((1, lambda axes: draw_steps(axes, run)))
     return chosen

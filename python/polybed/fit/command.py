@@ -47,10 +47,6 @@ def parser():
     return options
 
 
-def published_of(form):
-    return answer_of("list")["drag_forms"][form]
-
-
 def interval_of(problem, drawn):
     """95 % intervals of the constants, by name; empty without draws."""
     if not len(drawn):
@@ -97,7 +93,7 @@ def write_law(path, text):
 
 def fit(given, folder):
     points = read_points(given.rows)
-    problem = Problem(given.form, published_of(given.form), points)
+    problem = Problem(given.form, answer_of("list")["drag_forms"][given.form], points)
     if problem.known.sum() <= len(problem.free):
         raise StudyError(WRONG_CASE, f"{problem.known.sum()} forces cannot determine {len(problem.free)} constants: give more rows")
     if not given.quiet:

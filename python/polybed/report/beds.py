@@ -108,31 +108,22 @@ def maps_of(run):
 
 
 def positions_of(run, steps, ids):
-    """Places as two-byte shares of the box about the column, [step][particle][axis], 65535 of one that is not there; the box; speeds."""
+    """Places as two-byte shares of the box about the column, [step][particle][axis], 65535 of one that is not there; the box; speeds; species
+    and radius of every particle, whenever it is there."""
     shape = len(steps), len(ids)
     place = np.full((*shape, 3), np.nan)
     speed = np.full(shape, np.nan)
+    species, radius = np.zeros(len(ids), np.uint8), np.zeros(len(ids))
     for n, step in enumerate(steps):
         at = np.searchsorted(ids, step.id)
         known = np.flatnonzero((at < len(ids)) & (ids[np.minimum(at, len(ids) - 1)] == step.id))
         place[n, at[known]] = step.position[known]
         speed[n, at[known]] = np.sqrt((step.velocity[known] ** 2).sum(axis=1))
+        species[at[known]], radius[at[known]] = step.species[known], step.radius[known]
     low = np.minimum(np.nanmin(place, axis=(0, 1), initial=0.0), 0)
     high = np.maximum(np.nanmax(place, axis=(0, 1), initial=0.0), run.particles.size)
     high = np.where(high > low, high, low + 1e-9)
-    with np.errstate(invalid="ignore"):
-        shares = np.rint((place - low) / (high - low) * 65534)
-    return np.where(np.isfinite(shares), shares, 65535).astype(np.uint16), low, high, speed
-
-
-def properties(steps, ids):
-    """Species and radius of every particle, whenever it is there."""
-    species, radius = np.zeros(len(ids), np.uint8), np.zeros(len(ids))
-    for step in steps:
-        at = np.searchsorted(ids, step.id)
-        known = np.flatnonzero((at < len(ids)) & (ids[np.minimum(at, len(ids) - 1)] == step.id))
-        species[at[known]], radius[at[known]] = step.species[known], step.radius[known]
-    return species, radius
+    return levels(place, low, high, np.uint16), low, high, speed, species, radius
 
 
 def kind_numbers(species):
@@ -144,8 +135,7 @@ def packed_particles(run, chosen, share):
     """Every share-th particle at the chosen steps, as they stand in the page."""
     steps = [run.particles[int(n)] for n in chosen]
     ids = np.unique(np.concatenate([step.id for step in steps]))[::share]
-    places, low, high, speed = positions_of(run, steps, ids)
-    species, radius = properties(steps, ids)
+    places, low, high, speed, species, radius = positions_of(run, steps, ids)
     species = kind_numbers(run.particles.species)[species]
     heights = places[..., 1][places[..., 1] != 65535]
     highest = heights.max() / 65534 if len(heights) else 0

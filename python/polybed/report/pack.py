@@ -6,7 +6,6 @@ import zlib
 import numpy as np
 
 EMPTY = 255  # of a map where there is nothing to show; levels are 0 to 254, so that 127 is the middle of a scale with two signs
-LEVELS = 254
 
 
 def packed(values):
@@ -15,20 +14,13 @@ def packed(values):
     return base64.b64encode(zlib.compress(plain.tobytes(), 6)).decode()
 
 
-def levels(values, low, high):
-    """Values as levels between the ends of a scale; what is no number is empty."""
-    share = (np.asarray(values, dtype=np.float32) - low) / (high - low if high > low else 1)
+def levels(values, low, high, kind=np.uint8):
+    """Values as levels of one byte or two between the ends of a scale, which can be arrays; the highest is empty, of what is no number."""
+    empty = np.iinfo(kind).max
+    share = (np.asarray(values, np.float32 if kind is np.uint8 else float) - low) / np.where(np.greater(high, low), np.subtract(high, low), 1)
     with np.errstate(invalid="ignore"):
-        found = np.rint(np.clip(share, 0, 1) * LEVELS)
-    return np.where(np.isfinite(found), found, EMPTY).astype(np.uint8)
-
-
-def fine_levels(values, low, high):
-    """The same in two bytes, of which the highest is empty."""
-    share = (np.asarray(values, dtype=float) - low) / (high - low if high > low else 1)
-    with np.errstate(invalid="ignore"):
-        found = np.rint(np.clip(share, 0, 1) * 65534)
-    return np.where(np.isfinite(found), found, 65535).astype(np.uint16)
+        found = np.rint(np.clip(share, 0, 1) * (empty - 1))
+    return np.where(np.isfinite(found), found, empty).astype(kind)
 
 
 def changes(values):

@@ -7,7 +7,8 @@ from polybed.drawing.units import fitting
 from polybed.outflow import discharge_rate, mass_out, recovery
 from polybed.quantities import unit_of_field
 from polybed.report.classes import mean_over, parts_of
-from polybed.report.pack import fine_levels, packed, plain_numbers, thinned
+from polybed.report import pack
+from polybed.report.pack import packed, plain_numbers, thinned
 
 MOST_ROWS = 1200  # of a history in a page
 MOST_PROFILES = 200
@@ -111,7 +112,7 @@ def curves(run, profiles, chosen, title, kind, extra):
     finite = np.concatenate([v[np.isfinite(v)].ravel() for v in values.values()] + [np.zeros(1)]) * factor
     # what has fallen below an opening is counted with the lowest layer, whose voidage may then be below 0
     low, high = (0.0, 1.0) if kind == "phi" else (min(0.0, float(finite.min())), max(float(finite.max()), 1e-12))
-    lines = [line(label, None, packed(fine_levels(values[name] * factor, low, high)), n, [5, 3] if n is None else None)
+    lines = [line(label, None, packed(pack.levels(values[name] * factor, low, high, np.uint16)), n, [5, 3] if n is None else None)
              for name, label, n in names]
     return {"title": title + (f" ({unit})" if unit else ""), "low": low, "high": high, "lines": lines}
 

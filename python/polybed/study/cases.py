@@ -2,6 +2,7 @@
 
 import tomllib
 
+from polybed.overrides import keys_of_case, toml
 from polybed.runner import answer_of, words_of
 
 FREE = ("tfm.", "dem.", "output.")  # tables that may differ between runs of one case
@@ -44,22 +45,6 @@ def hash_of(content):
     return f"{found:016x}"
 
 
-def keys_of(text):
-    """Values by key of a resolved case, one key a line, as texts; tables of an array are counted from 1."""
-    keys, counted, table = {}, {}, ""
-    for line in text.splitlines():
-        if line.startswith("[["):
-            name = line[2 : line.index("]")]
-            counted[name] = counted.get(name, 0) + 1
-            table = f"{name}.{counted[name]}."
-        elif line.startswith("["):
-            table = line[1 : line.index("]")] + "."
-        elif " = " in line:
-            key, value = line.split(" = ", 1)
-            keys[table + key] = value
-    return keys
-
-
 def laws_of(role):
     """The laws of a role of [effects], by their names."""
     return [law["law"] for found in answer_of("list")["roles"] if found["role"] == role for law in found["laws"]]
@@ -84,6 +69,6 @@ def differences(first, second, in_both):
             return key.removeprefix("effects.") not in in_both
         return key in ("title", "run.until") or key.startswith(FREE)
 
-    a, b = keys_of(first), keys_of(second)
+    a, b = ({key: toml(value) for key, value in keys_of_case(text).items()} for text in (first, second))
     found = [(key, a.get(key, "-"), b.get(key, "-")) for key in sorted(a.keys() | b.keys())]
     return [entry for entry in found if entry[1] != entry[2] and not may_differ(entry[0])]

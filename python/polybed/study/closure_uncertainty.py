@@ -1,16 +1,13 @@
 """What the uncertainty of a drag law means for an answer: what `--closure-uncertainty` of `polybed inversion` and of `polybed tfm` hands
 over to.
 
-    python3 -m polybed.study.closure_uncertainty REQUEST
-
-REQUEST is a JSON object: what the command line says. The factor that all sizes have in common and the ratio of the sizes are moved apart,
+Its argument is a JSON object: what the command line says. The factor that all sizes have in common and the ratio of the sizes are moved apart,
 each by the law's band, and the answer is found again: by force balance, or by runs. What they change is added in squares. The answer with
 both moved at once is compared with the sum of what each changes.
 """
 
 import json
 import math
-import os
 import sys
 import tempfile
 from pathlib import Path
@@ -20,8 +17,8 @@ from polybed.study.cases import Case
 from polybed.study.closure_band import band_of, tilt_of, width_of, write_moved
 from polybed.ending import DONE, NUMBERS, WRONG_CASE, StudyError, answer, guarded
 from polybed.study.record import draw, remark, write_record
-from polybed.runner import answer_of, call, flags, has_checkpoint, run, words_of
-from polybed.study.stress_uncertainty import late_means
+from polybed.runner import answer_of, call, words_of
+from polybed.study.stress_uncertainty import late_means, run_again, run_case
 
 FINE = 0.5  # y below which the ratio has a band of its own
 SMALL = 0.1  # of the band: the step of the linearised answer
@@ -182,12 +179,8 @@ def mean_voidage(bed, height):
 
 def run_moved(request, bed, directions, signs, name):
     """The case with its law moved, in a folder of the run; its late means."""
-    output = os.path.join(request["directory"], name)
     override = bed.moved(directions, signs, Path(request["directory"]) / f"law-{name}.json")
-    again = "--resume" if request["resume"] and has_checkpoint(output) else "--force" if request["force"] else None
-    run("tfm", request["case"], *words_of([*bed.case.overrides, override]), "-o", output, "--no-picture",
-        *flags(request, "permissive", "quiet"), *([again] if again else []))
-    return late_means(output)
+    return late_means(run_again(request, bed.case, name, override))
 
 
 def tfm_record(request, bed, base):
@@ -218,9 +211,7 @@ def make_tfm(request):
     bed = Bed(request)
     if "profile" in bed.case.keys["column"]:
         raise StudyError(WRONG_CASE, "--closure-uncertainty: the bands are those at one voidage, which differs along a column that tapers")
-    picture = [] if request["picture"] else ["--no-picture"]
-    run("tfm", request["case"], *words_of(bed.case.overrides), "-o", request["directory"], *picture,
-        *flags(request, "resume", "force", "permissive", "quiet", "json"), answers=True)
+    run_case(request, bed.case)
     record = tfm_record(request, bed, late_means(request["directory"]))
     write_record(Path(request["directory"]) / "closure_uncertainty.json", record)
     tell_tfm(record)

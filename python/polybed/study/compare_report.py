@@ -37,14 +37,10 @@ def plain_scores(found):
     return plain | {"order": order | {"same": same}}
 
 
-def counts_of(record):
-    """The counters of a run, as its record has them."""
-    return {name: count for name, count in sorted(record["work"].items()) if type(count) in (int, float)}
-
-
 def plain_run(directory, record, profiles):
     with contents_of(os.path.join(directory, "run.json")):
-        return {"work": counts_of(record), "cpu_s": record["cpu_s"], "wall_s": record.get("wall_s"), "time_s": record["time_s"],
+        counts = {name: count for name, count in sorted(record["work"].items()) if type(count) in (int, float)}
+        return {"work": counts, "cpu_s": record["cpu_s"], "wall_s": record.get("wall_s"), "time_s": record["time_s"],
                 "ranks": record["ranks"], "state": record["state"], "directory": directory, "case_hash": record["case_hash"],
                 "git_commit": record["git_commit"], "profiles_in_window": profiles}
 
@@ -91,12 +87,17 @@ def work_lines(model, run):
             f"[{os.path.join(run['directory'], 'run.json')}]", *([f"     {counts}"] if counts else [])]
 
 
-def measure_line(name, measure):
+def measure_cells(name, measure):
+    """What a measure is called, and both models and their difference in the unit that fits."""
     known = [abs(measure[model]) for model in MODELS if measure[model] is not None]
     factor, unit = fitting(unit_of_column(name), max(known, default=0))
-    cells = [with_error(*(None if value is None else value * factor for value in (measure[what], measure[f"{what}_error"])))
-             for what in (*MODELS, "difference")]
-    return " ".join([f"{measure_words(name) + (f' ({unit})' if unit else ''):30}", *(f"{cell:>20}" for cell in cells)])
+    scaled = {key: None if value is None else value * factor for key, value in measure.items()}
+    return [measure_words(name) + (f" ({unit})" if unit else ""), *((scaled[what], scaled[f"{what}_error"]) for what in (*MODELS, "difference"))]
+
+
+def measure_line(name, measure):
+    title, *numbers = measure_cells(name, measure)
+    return " ".join([f"{title:30}", *(f"{with_error(*number):>20}" for number in numbers)])
 
 
 def table(record):

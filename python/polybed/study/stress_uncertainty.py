@@ -1,8 +1,6 @@
 """What the standard errors of a table of the solids stress mean for a bed: what `polybed tfm --stress-uncertainty` hands over to.
 
-    python3 -m polybed.study.stress_uncertainty REQUEST
-
-REQUEST is a JSON object: what the command line says. The case is run with its table, and with the table at plus and minus one standard
+Its argument is a JSON object: what the command line says. The case is run with its table, and with the table at plus and minus one standard
 error; stress_uncertainty.json has the band of bed height and centre difference.
 """
 
@@ -63,23 +61,30 @@ def band(name, unit, minus, table, plus):
     return {"table": table, "minus": minus, "plus": plus, "low": low, "high": high}
 
 
-def run_again(request, case, name, sigma):
-    """The case with its table moved, in a folder of the run."""
+def run_case(request, case):
+    """The case as it is; the answer of the command is that of this run."""
+    run("tfm", request["case"], *words_of(case.overrides), "-o", request["directory"], *([] if request["picture"] else ["--no-picture"]),
+        *flags(request, "resume", "force", "permissive", "quiet", "json"), answers=True)
+
+
+def run_again(request, case, name, override):
+    """The case with one more override, in a folder of the run."""
     output = os.path.join(request["directory"], name)
-    moved = moved_table(case.table, sigma, os.path.join(request["directory"], f"table-{name}.h5"))
     again = "--resume" if request["resume"] and has_checkpoint(output) else "--force" if request["force"] else None
-    run("tfm", request["case"], *words_of([*case.overrides, moved]), "-o", output, "--no-picture",
-        *flags(request, "permissive", "quiet"), *([again] if again else []))
+    run("tfm", request["case"], *words_of([*case.overrides, override]), "-o", output, "--no-picture", *flags(request, "permissive", "quiet"),
+        *([again] if again else []))
     return output
+
+
+def run_moved(request, case, name, sigma):
+    return run_again(request, case, name, moved_table(case.table, sigma, os.path.join(request["directory"], f"table-{name}.h5")))
 
 
 def make(request):
     directory = request["directory"]
     case = Case(request["case"], request["overrides"], request["until"])
-    picture = [] if request["picture"] else ["--no-picture"]
-    run("tfm", request["case"], *words_of(case.overrides), "-o", directory, *picture,
-        *flags(request, "resume", "force", "permissive", "quiet", "json"), answers=True)
-    means = [late_means(folder) for folder in (run_again(request, case, "minus", -1), directory, run_again(request, case, "plus", 1))]
+    run_case(request, case)
+    means = [late_means(folder) for folder in (run_moved(request, case, "minus", -1), directory, run_moved(request, case, "plus", 1))]
     found = {"filetype": "polybed stress uncertainty", "version": 1, "table": case.table, "standard_errors": 1,
              "window": "last quarter, from where it is stationary"}
     for name, unit in (("bed_height_m", " m"), ("centre_difference", "")):

@@ -10,7 +10,7 @@ from polybed.ending import DONE, FILE, NUMBERS, WRONG_CASE, StudyError, answer, 
 from polybed.folder import read_record
 from polybed.in_place import put_text
 from polybed.program import finished
-from polybed.runner import call, flags, has_checkpoint, run, sources, words_of
+from polybed.runner import commit_and_build, flags, has_checkpoint, run, sources, words_of
 from polybed.study.cases import Case
 from polybed.study.output_folder import taken
 from polybed.study.record import json_text, remark
@@ -162,7 +162,7 @@ def validate(options):
         raise StudyError(WRONG_CASE, "--seeds is 1 or more")
     if not pairs:
         raise StudyError(WRONG_CASE, "no entry is left to run: polybed validate --list shows all")
-    commit = call("--version").split("(")[1].split(")")[0]
+    commit = commit_and_build()[0]
     with taken(Path(options.output)):
         blocks = [block_of(options, entry, model, commit) for entry, model in pairs]
         rows = [row for block in blocks for row in block["rows"]]

@@ -129,14 +129,11 @@ def rows_of(path):
     return list(csv.DictReader(io.StringIO("\n".join(lines))))
 
 
-def matches(cell, wanted):
-    return cell == wanted if isinstance(wanted, str) else finite(cell) == wanted
-
-
 def chosen_rows(path, where):
     """Rows of a CSV file whose columns have these values. Raises FormatError without any."""
     with contents_of(path):
-        rows = [row for row in rows_of(path) if all(matches(row[column], wanted) for column, wanted in where.items())]
+        rows = [row for row in rows_of(path)
+                if all((row[column] if isinstance(wanted, str) else finite(row[column])) == wanted for column, wanted in where.items())]
     if not rows:
         raise FormatError(f"{path} has no row with {', '.join(f'{column} = {wanted}' for column, wanted in where.items())}")
     return rows

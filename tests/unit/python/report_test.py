@@ -127,8 +127,8 @@ class Maps(SampleRun):
         maps = data_of(self.page())["maps"]
         fine = next(m for m in maps["maps"] if (m["kind"], m["label"]) == ("solids", "fine"))
         levels = unpacked(fine["levels"], np.uint8).reshape(5, maps["ny"], maps["nx"])
-        found = levels / pack.LEVELS * (fine["high"] - fine["low"]) + fine["low"]
-        half_a_level = 0.5 * (fine["high"] - fine["low"]) / pack.LEVELS
+        found = levels / (pack.EMPTY - 1) * (fine["high"] - fine["low"]) + fine["low"]
+        half_a_level = 0.5 * (fine["high"] - fine["low"]) / (pack.EMPTY - 1)
         np.testing.assert_allclose(found, self.sample.phi_fine[:][:, : maps["ny"]], atol=1.001 * half_a_level)
         self.assertEqual(maps["time"], [0, 0.25, 0.5, 0.75, 1])
 
@@ -160,8 +160,8 @@ class Maps3D(Maps):
         maps = data_of(self.page())["maps"]
         fine = next(m for m in maps["maps"] if (m["kind"], m["label"]) == ("solids", "fine"))
         levels = unpacked(fine["levels"], np.uint8).reshape(5, maps["ny"], maps["nx"])
-        half_a_level = 0.5 * fine["high"] / pack.LEVELS
-        np.testing.assert_allclose(levels / pack.LEVELS * fine["high"], self.sample.phi_fine[:][:, 2, : maps["ny"]], atol=1.001 * half_a_level)
+        half_a_level = 0.5 * fine["high"] / (pack.EMPTY - 1)
+        np.testing.assert_allclose(levels / (pack.EMPTY - 1) * fine["high"], self.sample.phi_fine[:][:, 2, : maps["ny"]], atol=1.001 * half_a_level)
         self.assertIn("half depth", maps["note"])
 
     def test_no_velocity_where_a_species_is_absent(self):
