@@ -91,8 +91,8 @@ Table species_table() {
                                       help("N: number of species that represent the distribution"))),
           key(&Species::density, "density", dimension::density, range(1e-3, 1e16), Mark::required, help("rho_j")),
           key(&Species::sphericity, "sphericity", range(0.2, 1),
-              help("surface of the sphere of equal volume over that of the particle: below 1 effects.shape raises its "
-                   "drag; packings, contacts and other forces remain those of spheres of D_j")),
+              help("surface of the equal-volume sphere over the particle's: below 1 effects.shape raises the drag; all "
+                   "else is that of a sphere")),
           key(&Species::max_packing, "max_packing", range(0.3, 0.9),
               help("P_j: random packing of this species alone, for tfm.max_packing = fedors_landel, yu_standish")),
           key(&Species::youngs_modulus, "youngs_modulus", dimension::pressure, above(0, 1e13),
