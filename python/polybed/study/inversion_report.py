@@ -80,9 +80,15 @@ def stress_band(scan):
     return (min(velocities), max(velocities)) if scan.moved and None not in velocities else None
 
 
+def drifting(scan):
+    """How many runs from one end of the bracket to the other still drift, and how many there are."""
+    there = [run for step, run in zip(scan.found.steps, scan.runs) if scan.found.low <= step.velocity <= scan.found.high]
+    return sum(bool(run.warnings) for run in there), len(there)
+
+
 def agreement_of(scans):
     """Whether the models agree: relative difference of the velocities, against the greater of 5 % and half of what both are unknown by.
-    None unless both have found one."""
+    None unless both have found one; reached is None, undecided, while runs at their brackets still drift."""
     found = {scan.model: scan.found for scan in scans if scan.found.velocity is not None}
     if not {"tfm", "dem"} <= found.keys():
         return None
@@ -90,7 +96,7 @@ def agreement_of(scans):
     quotient = tfm.velocity / dem.velocity
     goal = max(GOAL, 0.5 * (tfm.width + dem.width))
     return {"value": quotient - 1, "error": quotient * math.hypot(tfm.error / tfm.velocity, dem.error / dem.velocity), "goal": goal,
-            "reached": abs(quotient - 1) <= goal}
+            "reached": abs(quotient - 1) <= goal if not any(drifting(scan)[0] for scan in scans) else None}
 
 
 def head():
@@ -111,8 +117,11 @@ def finding(scan):
     low, high = 1e3 * found.low, 1e3 * found.high
     if found.velocity is None:
         return f"{scan.model}: no inversion between {low:.4g} and {high:.4g} mm/s\n"
+    some, runs = drifting(scan)
+    drift = (f"{scan.model}: undecided, for {some} of {runs} runs there still drift, and +- is their noise alone: take a longer --until\n"
+             if some else "")
     return (f"{scan.model}: inversion at {1e3 * found.velocity:.4g} +-{1e3 * found.error:.1g} mm/s, between {low:.4g} and {high:.4g} "
-            f"(ended by {found.outcome}), slope {found.slope:.3g} s/m\n")
+            f"(ended by {found.outcome}), slope {found.slope:.3g} s/m\n{drift}")
 
 
 def band_line(scan):
@@ -154,5 +163,5 @@ def findings(scans, balance, beside=None):
     agreement = agreement_of(scans)
     if agreement:
         text += (f"tfm/dem - 1: {agreement['value']:.3f} +-{agreement['error']:.1g}, goal {agreement['goal']:.3f}: "
-                 f"{'reached' if agreement['reached'] else 'missed'}\n")
+                 f"{({True: 'reached', False: 'missed', None: 'undecided, runs still drift'}[agreement['reached']])}\n")
     return text

@@ -124,6 +124,18 @@ class Report(unittest.TestCase):
         found.runs = [report.RunOfScan(0, 0, 1, 0, 0, 1, 1, "", "", [], 0.97) for _ in runs]
         self.assertIsNone(report.mixed_interval(found))
 
+    def test_runs_that_drift_at_the_bracket_leave_it_undecided(self):
+        both = [scan(30.0, 0.1, 28, 31), scan(30.1, 0.1, 28, 31, "dem")]
+        for one in both:
+            one.found.steps = [Step(u, None, Mean(0, 1)) for u in (25, 28, 31)]
+            one.runs = [report.RunOfScan(0, 0, 1, 0, 0, 1, 1, "", "", drifts, 1.0) for drifts in (["not steady"], [], [])]
+        self.assertNotIn("undecided", report.findings(both, None))
+        self.assertTrue(report.agreement_of(both)["reached"])
+        both[1].runs[2].warnings.append("not steady: drift of bed_height")
+        self.assertIn("dem: undecided, for 1 of 2 runs there still drift", report.findings(both, None))
+        self.assertIn("undecided, runs still drift", report.findings(both, None))
+        self.assertIsNone(report.agreement_of(both)["reached"])
+
     def test_what_others_found_stands_beside(self):
         told = report.findings([], None, {"mixed_interval_m_s": [0.0282, 0.0343], "measured_m_s": [0.03], "simulated_m_s": None})
         for line in ("mixed by force balance: 28.2 to 34.3 mm/s", "measured: 30 mm/s"):
