@@ -31,7 +31,7 @@ def frame(run: Run) -> Any:
 
 def keys_of(run: Run) -> dict[str, Any]:
     """The keys of a run's resolved case by dotted names, those of a species by its name. A velocity that is constant is one number."""
-    keys = keys_of_case(run.record.get("case", ""), named=True)
+    keys = keys_of_case(run.record.get("case", ""))
     constant = {key: value[0][1] for key, value in keys.items()
                 if key.endswith("superficial_velocity") and isinstance(value, list) and len(value) == 1}
     return keys | constant

@@ -46,12 +46,12 @@ def flat(overrides: Overrides | None, table: str = "") -> Iterator[tuple[str, Va
             yield key, plain(value, key)
 
 
-def keys_of_case(text: str, named: bool = False) -> dict[str, Value]:
-    """The keys of a resolved case by dotted names; tables of an array are counted from 1, or called by their names."""
+def keys_of_case(text: str) -> dict[str, Value]:
+    """The keys of a resolved case by dotted names; tables of an array have their names, or count from 1."""
     case = tomllib.loads(text)
     for name, entries in case.items():
         if isinstance(entries, list):
-            case[name] = {str(entry.get("name", n) if named else n): entry for n, entry in enumerate(entries, start=1)}
+            case[name] = {str(entry.get("name", n)): entry for n, entry in enumerate(entries, start=1)}
     return dict(flat(case))
 
 

@@ -38,6 +38,8 @@ INSTANTIATE_TEST_SUITE_P(
                     Reading{"2 ft", 0.6096, dimension::length}, Reading{"10 in", 0.254, dimension::length},
                     Reading{"2 lb", 0.90718474, {0, 1, 0, 0}}, Reading{"90 ml/s", 9e-5, dimension::volume_rate},
                     Reading{"60 gal/min", 3.785411784e-3, dimension::volume_rate},
+                    Reading{"12 cP", 12e-3, dimension::viscosity}, Reading{"1050 mbar", 1050e2, dimension::pressure},
+                    Reading{"75 L/h", 75e-3 / 3600, dimension::volume_rate},
                     Reading{"5 gpm/ft2", 5 * (3.785411784e-3 / 60) / (0.3048 * 0.3048), dimension::velocity}));
 
 TEST(Units, WhatIsNoQuantityIsRefused) {

@@ -194,7 +194,7 @@ class Cases(unittest.TestCase):
                   ' = 0.2\n\n[dem]\nfriction = 0.1\n\n[output]\nevery = 1.0\n')
         self.assertEqual(cases.differences(first, second, {"drag"}),
                          [("column.cells", "[3, 18]", "[6, 18]"), ("column.depth", "-", "0.1"), ("effects.drag", '"cello"', '"fand"'),
-                          ("species.2.density", "2.0", "3.0")])
+                          ("species.coarse.density", "2.0", "3.0")])
         self.assertEqual(cases.differences(first, first, {"drag"}), [])
 
     def test_roles_of_either_model(self):
