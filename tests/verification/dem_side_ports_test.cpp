@@ -141,6 +141,13 @@ TEST(DemSidePorts, AWallThatEndsAtARimPushesOnce) {
   }
 }
 
+// A wall across the column that lies along the lower rim of a hole in the front.
+TEST(DemSidePorts, AWallAlongARimPushesOnce) {
+  core::Scene scene = holed(ColumnFace::front);
+  scene.walls.push_back({{2e-3, 4e-3}, {18e-3, 4e-3}});
+  EXPECT_NEAR(force_at(scene, {10e-3, 4e-3 + r - 5e-6, 0})[1], hertz(), 1e-10 * hertz());
+}
+
 // Without loss a sphere that strikes the rim on its way out takes with it what it had: m g h and m v^2/2. 1e-4: the
 // integration's error of an impact of 100 steps.
 TEST(DemSidePorts, TakesOutTheEnergyThatCameIn) {
