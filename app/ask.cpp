@@ -208,7 +208,7 @@ class Service {
 ///   drag {law, partition, points}  of each [eps, Re, x1, D1, ...] the answers of polybed drag by name
 ///   means {series, ratios}         as polybed measure --series
 /// A box is {"regime", "phi", "stokes", "restitution", "friction", "share", "binary", "pushed", "seed"}, of the case
-/// read before. Collective; the first rank reads and writes. Throws what a question meets.
+/// read before. Collective; the first rank reads and writes. Throws the error of a question.
 void answer_questions() {
   const std::shared_ptr<const core::Ranks> ranks = core::started_by_launcher() ? core::Ranks::of_program() : nullptr;
   const auto show = [](const core::Json& answer) {
@@ -229,7 +229,7 @@ void answer_questions() {
 
 void add_ask(CLI::App& app, Commands& commands) {
   CLI::App& command = *app.add_subcommand("ask", "answers the questions of the Python package, a JSON object per line");
-  command.group("");  // no command of a user's
+  command.group("");  // internal: not in the help
   commands.push_back({&command, doing(answer_questions),
                       [] { return core::started_by_launcher() ? On::all_ranks : On::one_process; }});
 }

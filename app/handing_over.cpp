@@ -9,7 +9,7 @@ namespace polybed::app {
 
 namespace {
 
-/// A command whose options are those of the program that it hands over to, --help included.
+/// A command that passes all its options on to the program that does its work, --help included.
 CLI::App& add_handed_over(CLI::App& app, const std::string& name, const std::string& help) {
   CLI::App& command = *app.add_subcommand(name, help);
   command.prefix_command();

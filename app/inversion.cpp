@@ -160,7 +160,7 @@ void print_methods(std::vector<MethodRow> rows, const core::Scene& scene) {
       "(mixtures): a law made for several sizes; (one size): applied to each species as if it were alone\n");
 }
 
-/// A line for each point of a row, or one that says there is none.
+/// One line per point of a row, or a line that reports no point.
 void print_row(const MethodRow& row, const std::string& name, bool of_case) {
   const std::string front = fmt::format("{} {:34}", of_case ? "*" : " ", name);
   if (row.points.empty()) core::print("{} {:>8} {:>8}\n", front, "-", "-");

@@ -57,7 +57,7 @@ std::string with(std::string text, std::string_view old, std::string_view now) {
   return text;
 }
 
-/// What a key can be, for the page: its choices, or its range in its unit; a range alone is that of a number.
+/// The values of a key for the page: its choices, or its kind and range. Numbers show the range alone.
 std::string values_of(const Key& key) {
   const auto shorter = with(with(with(core::range_text(key), "at least ", ""), ", at most ", " to "), "above ", ">");
   const std::string range = with(shorter, " | ", ", "), unit = ", " + core::unit_name(key.dimension);

@@ -44,7 +44,7 @@ struct DragLaw {
   /// Modification for studies of the law's uncertainty: f_j is multiplied by common [1 + tilt (y_j - 1)]. The tilt
   /// changes only the ratio between species: if f_j is proportional to y_j, sum x_j f_j/y_j^2 is unchanged.
   double common = 1, tilt = 0;
-  /// The factors of particles that are no spheres, on f_j of each species and on the base law of one size; none: all
+  /// The factors of non-spherical particles, on f_j of each species and on the base law of one size; none: all
   /// are spheres.
   std::optional<BedShape> shape = {};
 
@@ -53,7 +53,7 @@ struct DragLaw {
   [[nodiscard]] double moved(double y) const { return common * std::max(1 + tilt * (y - 1), least_tilted); }
   static constexpr double least_tilted = 0.1;
 
-  /// The law whose base law is that of a species alone.
+  /// The law for a bed of one species: its base law has the shape factor of that species.
   [[nodiscard]] DragLaw alone(std::size_t species) const {
     DragLaw law = *this;
     if (law.shape) law.shape->mean = law.shape->species[species];

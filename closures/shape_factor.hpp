@@ -1,9 +1,9 @@
-// How much more a particle is dragged than the sphere of its volume: C_D(Re, sphericity)/C_D(Re, 1) of one formula.
+// Drag on a particle over the drag on the sphere of its volume: C_D(Re, sphericity)/C_D(Re, 1) of one formula.
 //
 // Both formulas have the form C_D Re/24 = creeping + transition Re^power + newton Re^2/(Re + onset), with numbers that
-// depend on the sphericity psi (surface of the sphere of equal volume over that of the particle), 0.2 to 1 here. Re is
-// that of the drag laws: of the superficial slip eps |U_f - U_j| and the diameter of the sphere of equal volume.
-// Beyond Re 2.5e4 they go on smoothly to a constant C_D. At psi = 1 the factor is exactly 1.
+// depend on the sphericity psi (surface of the sphere of equal volume over the surface of the particle), 0.2 to 1 here.
+// Re uses the superficial slip eps |U_f - U_j|, as the drag laws do, and the diameter of the sphere of equal volume.
+// Beyond Re 2.5e4 both formulas tend smoothly to a constant C_D. At psi = 1 the factor is exactly 1.
 #pragma once
 
 #include <cmath>

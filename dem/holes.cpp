@@ -107,7 +107,7 @@ std::vector<Hole> holes_of(const core::Scene& scene, const Box& box) {
   return holes;
 }
 
-std::vector<std::pair<std::size_t, std::size_t>> holes_in_part_joined(const core::Scene& scene, const Box& box) {
+std::vector<std::pair<std::size_t, std::size_t>> touching_holes(const core::Scene& scene, const Box& box) {
   std::vector<std::pair<std::size_t, std::size_t>> pairs;
   const std::vector<Hole> holes = rectangles_of(scene, box);
   for (std::size_t a = 0; a < holes.size(); ++a)

@@ -10,19 +10,18 @@
 namespace polybed::dem {
 
 struct Hole {
-  std::size_t discharge;  ///< number of the first one that it is of, from 0
+  std::size_t discharge;  ///< the first of its discharges, from 0
   Opening opening;
 };
 
-/// Discharges that share a whole edge, also across joined sides, are one rectangle. Rules ask also for those of cases
-/// whose corners they refuse.
+/// Discharges that share a whole edge, also across joined sides, are one rectangle. Corner lists of a wrong length are
+/// read as far as they go: rules call this for cases that other rules refuse.
 [[nodiscard]] std::vector<Hole> rectangles_of(const core::Scene& scene, const Box& box);
 
-/// The same as holes, which have no rim where they end with their face, and none along an axis that they span.
+/// These rectangles as holes: without a rim where they end with their face, or along an axis that they span.
 [[nodiscard]] std::vector<Hole> holes_of(const core::Scene& scene, const Box& box);
 
-/// Numbers of two discharges whose holes share a part of an edge: there a particle would meet the rims of both.
-[[nodiscard]] std::vector<std::pair<std::size_t, std::size_t>> holes_in_part_joined(const core::Scene& scene,
-                                                                                    const Box& box);
+/// Pairs of discharges, from 0, whose rectangles share a part of an edge: a particle there would meet the rims of both.
+[[nodiscard]] std::vector<std::pair<std::size_t, std::size_t>> touching_holes(const core::Scene& scene, const Box& box);
 
 }  // namespace polybed::dem

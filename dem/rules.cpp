@@ -31,10 +31,10 @@ core::Broken blocked_discharges(const core::Scene& scene) {
   return broken;
 }
 
-core::Broken discharges_joined_in_part(const core::Scene& scene) {
+core::Broken discharges_that_touch(const core::Scene& scene) {
   core::Broken broken;
   if (scene.bed.held || scene.discharges.empty()) return broken;
-  for (const auto& [a, b] : holes_in_part_joined(scene, bare_box_of(scene.column)))
+  for (const auto& [a, b] : touching_holes(scene, bare_box_of(scene.column)))
     broken.add({std::to_string(a + 1), std::to_string(b + 1)}, b);
   return broken;
 }
@@ -78,15 +78,15 @@ const std::vector<core::Rule>& model_rules() {
              std::any_of(scene.walls.begin(), scene.walls.end(), [](const auto& w) { return w.is_round(); });
          return core::broken_if(!scene.bed.held && (scene.column.is_round() || walls) && discharges_below(scene));
        }},
-      {{"discharge.from", "discharge.to", "discharge.at", "species.diameter"},
+      {{"discharge.from", "discharge.to", "discharge.at", "species.diameter", "column.size"},
        "[[discharge]] number {}: the largest particle, of {} m, must fit through: move discharge.from and discharge.to "
        "apart",
        blocked_discharges},
       {{"discharge.from", "discharge.to", "discharge.at", "column.size", "column.cells"},
-       "[[discharge]] number {} and {} touch and are no rectangle together: polybed tfm can run it, polybed dem "
-       "cannot: "
-       "particles would meet a rim there; make them one, or move them apart",
-       discharges_joined_in_part},
+       "[[discharge]] number {} and {} touch but do not form one rectangle: polybed tfm can run it, polybed dem "
+       "cannot, "
+       "as particles would meet a rim there; make them one, or move them apart",
+       discharges_that_touch},
       {{"discharge.at", "fluid.name", "fluid.equation_of_state"},
        "[[discharge]] in a compressible fluid: polybed tfm can run it, polybed dem cannot: the mass of the fluid that "
        "takes the place of a particle as it leaves would be missing; use fluid.equation_of_state = \"incompressible\"",

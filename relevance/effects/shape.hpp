@@ -1,4 +1,4 @@
-// Particles that are no spheres.
+// Non-spherical particles.
 #pragma once
 
 #include <fmt/format.h>
@@ -20,7 +20,7 @@ inline std::vector<core::Law> laws_of_shape() {
   return laws;
 }
 
-/// On wherever a species is no sphere: the case says so, and the factor costs nothing.
+/// On if a species is not spherical: the case says so, and the factor costs nothing.
 inline std::optional<EffectRow> weigh_shape(const Weighing& by, EffectRow row) {
   if (!by.survey.has_fluid) return std::nullopt;
   row.threshold = by.scene.chooser.tolerance;
@@ -47,7 +47,7 @@ inline std::optional<EffectRow> weigh_shape(const Weighing& by, EffectRow row) {
 
 inline const Effect shape{
     .role = "shape",
-    .help = "factor on any drag law for particles that are no spheres, by species.sphericity",
+    .help = "factor on any drag law for non-spherical particles, by species.sphericity",
     .laws = laws_of_shape(),
     .advice = {{"ganser", "the default where species.sphericity is below 1: right in creeping flow, too"}},
     .rules = {needs_a_fluid("shape"),

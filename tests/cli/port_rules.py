@@ -35,8 +35,8 @@ PORTS_FOR_ONE_MODEL = {
     'discharge.at = "bottom" in a round column or under a round wall: polybed tfm can run it, polybed dem cannot: particles leave through the '
     'top, by column.outlet = "open", or without a fluid through dem.opening': [*ROUND, part("discharge", ("bottom", [0.02, 0.02], [0.04, 0.04]))],
     "[[discharge]] number {}: the largest particle, of {} m, must fit through: move discharge.from and discharge.to apart": [part("discharge", ("left", [0.1], [0.1005]))],
-    "[[discharge]] number {} and {} touch and are no rectangle together: polybed tfm can run it, polybed dem cannot: particles would meet a rim "
-    "there; make them one, or move them apart": [
+    "[[discharge]] number {} and {} touch but do not form one rectangle: polybed tfm can run it, polybed dem cannot, as particles would meet a "
+    "rim there; make them one, or move them apart": [
         "column.size=['0.1 m', '0.2 m', '0.1 m']", "column.cells=[20, 40, 20]",
         part("discharge", ("left", [0, 0], [0.0625, 0.0625]), ("left", [0.0625, 0.03125], [0.09375, 0.09375]))],
     "[[discharge]] in a compressible fluid: polybed tfm can run it, polybed dem cannot: the mass of the fluid that takes the place of a particle "

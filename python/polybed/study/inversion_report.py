@@ -82,7 +82,7 @@ def stress_band(scan):
 
 def drifting(scan):
     """How many runs from one end of the bracket to the other still drift, and how many there are."""
-    there = [run for step, run in zip(scan.found.steps, scan.runs) if scan.found.low <= step.velocity <= scan.found.high]
+    there = [run for step, run in zip(scan.found.steps, scan.runs, strict=True) if scan.found.low <= step.velocity <= scan.found.high]
     return sum(bool(run.warnings) for run in there), len(there)
 
 
@@ -118,7 +118,7 @@ def finding(scan):
     if found.velocity is None:
         return f"{scan.model}: no inversion between {low:.4g} and {high:.4g} mm/s\n"
     some, runs = drifting(scan)
-    drift = (f"{scan.model}: undecided, for {some} of {runs} runs there still drift, and +- is their noise alone: take a longer --until\n"
+    drift = (f"{scan.model}: undecided: {some} of {runs} runs in the bracket still drift, and +- covers their noise alone; use a longer --until\n"
              if some else "")
     return (f"{scan.model}: inversion at {1e3 * found.velocity:.4g} +-{1e3 * found.error:.1g} mm/s, between {low:.4g} and {high:.4g} "
             f"(ended by {found.outcome}), slope {found.slope:.3g} s/m\n{drift}")

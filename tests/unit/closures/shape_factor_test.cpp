@@ -1,4 +1,4 @@
-// The drag of particles that are no spheres, against both formulas worked out by hand.
+// The drag of non-spherical particles, against both formulas worked out by hand.
 #include "closures/shape_factor.hpp"
 
 #include <gtest/gtest.h>

@@ -132,7 +132,7 @@ class Report(unittest.TestCase):
         self.assertNotIn("undecided", report.findings(both, None))
         self.assertTrue(report.agreement_of(both)["reached"])
         both[1].runs[2].warnings.append("not steady: drift of bed_height")
-        self.assertIn("dem: undecided, for 1 of 2 runs there still drift", report.findings(both, None))
+        self.assertIn("dem: undecided: 1 of 2 runs in the bracket still drift", report.findings(both, None))
         self.assertIn("undecided, runs still drift", report.findings(both, None))
         self.assertIsNone(report.agreement_of(both)["reached"])
 
