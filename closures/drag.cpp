@@ -10,47 +10,40 @@ namespace polybed::closures {
 
 namespace {
 
-/// Evaluates a law over rows. A law with a cheap guard is called directly; cello and brinkman_oseen run branch-free
-/// over all rows, and a second pass recomputes the rows outside their data.
+/// Evaluates a law over rows. A law with a cheap guard is called directly, richardson_zaki without its test for the
+/// guard; cello and brinkman_oseen run branch-free over all rows, and a second pass recomputes the rows outside their
+/// data.
 template <class Law>
 void evaluate(const Law& law, std::size_t rows, const double* voidage, const double* reynolds, double* f,
               double* re_dfdre, GuardCount& count) {
+  const auto put = [&](std::size_t n, const DragValue& value) {
+    f[n] = value.f;
+    re_dfdre[n] = value.re_dfdre;
+  };
   std::size_t outside = 0;
   if constexpr (requires { law.surely_inside(1.0, 1.0); }) {
     std::size_t inside = 0;
-    for (std::size_t n = 0; n < rows; ++n) {
-      const DragValue value = law.bare(voidage[n], reynolds[n]);
-      f[n] = value.f;
-      re_dfdre[n] = value.re_dfdre;
-    }
+    for (std::size_t n = 0; n < rows; ++n) put(n, law.bare(voidage[n], reynolds[n]));
     for (std::size_t n = 0; n < rows; ++n) inside += law.surely_inside(voidage[n], reynolds[n]) ? 1 : 0;
     for (std::size_t n = 0; n < rows && inside < rows; ++n) {
       if (law.surely_inside(voidage[n], reynolds[n]) || !law.outside(voidage[n], reynolds[n])) continue;
       ++outside;
-      const DragValue value = law(voidage[n], reynolds[n]);
-      f[n] = value.f;
-      re_dfdre[n] = value.re_dfdre;
-    }
-  } else if constexpr (requires { law.bare_of_size(1.0, 1.0); }) {
-    for (std::size_t n = 0; n < rows; ++n) {
-      const DragValue value = law.bare_of_size(voidage[n], reynolds[n]);
-      f[n] = value.f;
-      re_dfdre[n] = value.re_dfdre;
-    }
-    for (std::size_t n = 0; n < rows; ++n) outside += law.outside(voidage[n], reynolds[n]) ? 1 : 0;
-    for (std::size_t n = 0; n < rows && outside > 0; ++n) {
-      if (!law.outside(voidage[n], reynolds[n])) continue;
-      const DragValue value = law(voidage[n], reynolds[n]);
-      f[n] = value.f;
-      re_dfdre[n] = value.re_dfdre;
+      put(n, law(voidage[n], reynolds[n]));
     }
   } else {
-    for (std::size_t n = 0; n < rows; ++n) {
-      const DragValue value = law(voidage[n], reynolds[n]);
-      f[n] = value.f;
-      re_dfdre[n] = value.re_dfdre;
-    }
     for (std::size_t n = 0; n < rows; ++n) outside += law.outside(voidage[n], reynolds[n]) ? 1 : 0;
+    if constexpr (requires { law.bare_of_size(1.0, 1.0); }) {
+      for (std::size_t n = 0; n < rows; ++n) put(n, law.bare_of_size(voidage[n], reynolds[n]));
+      for (std::size_t n = 0; n < rows && outside > 0; ++n)
+        if (law.outside(voidage[n], reynolds[n])) put(n, law(voidage[n], reynolds[n]));
+    } else {
+      bool done = false;
+      if constexpr (requires { law.guarded(1.0, 1.0); }) {
+        done = law.guard == Guard::on;
+        for (std::size_t n = 0; n < rows && done; ++n) put(n, law.guarded(voidage[n], reynolds[n]));
+      }
+      for (std::size_t n = 0; n < rows && !done; ++n) put(n, law(voidage[n], reynolds[n]));
+    }
   }
   count.evaluations += rows;
   count.guarded += outside;
@@ -228,8 +221,9 @@ void move(const DragLaw& law, std::span<const double> y, double* f) {
 }
 
 /// Scales f of particles of one shape. \param slip  superficial  \param per_length  rho_f D/mu
-void shape(const ShapeFactor& factor, std::size_t cells, const double* slip, double per_length, double* f) {
-  for (std::size_t c = 0; c < cells; ++c) f[c] *= factor(per_length * slip[c]);
+void shape(const ShapeFactor& factor, std::span<const double> voidage, const double* slip, double per_length,
+           double* f) {
+  for (std::size_t c = 0; c < voidage.size(); ++c) f[c] *= factor(voidage[c], per_length * slip[c]);
 }
 
 /// The law, or the partition that shares its base law.
@@ -265,7 +259,7 @@ void drag_of_points(const DragLaw& law, std::span<const double> voidage, std::sp
     re_dfdre[n] *= law.common;
   }
   for (std::size_t n = 0; n < f.size() && law.shape; ++n) {
-    const DragValue shaped = law.shape->mean({f[n], re_dfdre[n]}, reynolds[n]);
+    const DragValue shaped = law.shape->mean({f[n], re_dfdre[n]}, voidage[n], reynolds[n]);
     f[n] = shaped.f;
     re_dfdre[n] = shaped.re_dfdre;
   }
@@ -292,7 +286,8 @@ void drag_of_cells(const DragLaw& law, std::span<const double> voidage, std::spa
           take_mean(law, l.base, voidage.subspan(begin, block.cells), reynolds, f[j] + begin, count);
         }
         if (law.shape)
-          shape(law.shape->species[j], block.cells, slip[j] + begin, per_viscosity * diameter[j], f[j] + begin);
+          shape(law.shape->species[j], voidage.subspan(begin, block.cells), slip[j] + begin,
+                per_viscosity * diameter[j], f[j] + begin);
         if (!law.is_moved()) continue;
         for (std::size_t c = 0; c < block.cells; ++c) y[c] = diameter[j] * block.per_mean[c];
         move(law, {y.data(), block.cells}, f[j] + begin);

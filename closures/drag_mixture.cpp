@@ -69,7 +69,7 @@ void drag_of_mixture(const DragLaw& law, double voidage, std::span<const double>
         *law.partition);
   for (std::size_t j = 0; j < diameter.size() && law.shape; ++j) {
     const DragValue shaped =
-        law.shape->species[j]({f[j], re_dfdre[j]}, fluid_density * slip[j] * diameter[j] / viscosity);
+        law.shape->species[j]({f[j], re_dfdre[j]}, voidage, fluid_density * slip[j] * diameter[j] / viscosity);
     f[j] = shaped.f;
     re_dfdre[j] = shaped.re_dfdre;
   }

@@ -1,11 +1,13 @@
-// Drag on a particle over the drag on the sphere of its volume: C_D(Re, sphericity)/C_D(Re, 1) of one formula.
+// Drag on a particle over the drag on the sphere of its volume, both by one formula.
 //
-// Both formulas have the form C_D Re/24 = creeping + transition Re^power + newton Re^2/(Re + onset), with numbers that
-// depend on the sphericity psi (surface of the sphere of equal volume over the surface of the particle), 0.2 to 1 here.
+// The formulas have the form creeping + transition Re^power + newton Re^2/(Re + onset), with numbers that depend on the
+// sphericity psi (surface of the sphere of equal volume over the surface of the particle), 0.2 to 1 here. It is C_D
+// Re/24 of a lone particle, or the drag in a packed bed over that in creeping flow.
 // Re uses the superficial slip eps |U_f - U_j|, as the drag laws do, and the diameter of the sphere of equal volume.
-// Beyond Re 2.5e4 both formulas tend smoothly to a constant C_D. At psi = 1 the factor is exactly 1.
+// Beyond Re 2.5e4 all tend smoothly to a constant C_D. At psi = 1 the factor is exactly 1.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <span>
@@ -16,7 +18,7 @@
 
 namespace polybed::closures {
 
-/// C_D Re/24 of particles of one sphericity.
+/// Drag of particles of one sphericity, over a common factor.
 struct ShapeDrag {
   double creeping = 1, transition = 0, power = 1, newton = 0, onset = 1;
   [[nodiscard]] DragValue operator()(double re) const {
@@ -43,31 +45,49 @@ struct ShapeDrag {
   return {per_k1, per_k1 * 0.1118 * std::pow(k, 0.6567), 0.6567, k2 * 0.4305 / 24, 3305 / k};
 }
 
+/// Ergun, Chem. Eng. Prog. 48 (1952) 89, T(3.24), with psi D, the diameter of the sphere that has the particle's
+/// surface for its volume, in place of D; over 150 (1-eps)/18 and at Re/(1-eps). A packed bed, eps below 0.8.
+[[nodiscard]] inline ShapeDrag ergun(double psi) { return {1 / (psi * psi), 1.75 / 150 / psi, 1, 0, 1}; }
+
 /// The factor on the drag of a particle, 1 as it stands; of a sphere exactly 1.
 struct ShapeFactor {
   ShapeDrag own = {}, sphere = {};
-  [[nodiscard]] double operator()(double re) const { return own(re).f / sphere(re).f; }
+  bool packed = false;  ///< the formula is of Re/(1-eps)
+  [[nodiscard]] double operator()(double voidage, double re) const {
+    const double at = argument(voidage, re);
+    return own(at).f / sphere(at).f;
+  }
   /// f and Re df/dRe with the factor.
-  [[nodiscard]] DragValue operator()(const DragValue& drag, double re) const {
-    const DragValue one = own(re), other = sphere(re);
+  [[nodiscard]] DragValue operator()(const DragValue& drag, double voidage, double re) const {
+    const double at = argument(voidage, re);
+    const DragValue one = own(at), other = sphere(at);
     const double factor = one.f / other.f, slope = (one.re_dfdre - factor * other.re_dfdre) / other.f;
     return {factor * drag.f, factor * drag.re_dfdre + slope * drag.f};
+  }
+
+ private:
+  [[nodiscard]] double argument(double voidage, double re) const {
+    return packed ? re / std::max(1 - voidage, 1e-9) : re;
   }
 };
 
 struct ShapeLaw {
   std::string_view name, help, source;
   ShapeDrag (*drag)(double psi);
+  bool packed = false;
 };
-/// The first is the default: right in creeping flow, and the most accurate of the correlations that Chhabra, Agarwal
-/// and Sinha compared, Powder Technol. 101 (1999) 288. Near spheres the two differ: docs/theory/closures.md.
+/// The first is the default: beds are what is computed, and near spheres the others disagree by half
+/// (docs/theory/closures.md).
 inline constexpr ShapeLaw shape_laws[] = {
-    {"ganser", "isometric particles, from creeping flow to Re 1e5", "Ganser 1993, eq. 18 and table 7", ganser},
-    {"haider_levenspiel", "Re to 25,000; no effect of shape in creeping flow", "Haider and Levenspiel 1989",
-     haider_levenspiel}};
+    {"ergun", "a packed or fluidised bed, voidage below 0.8", "Ergun 1952, with psi D", ergun, true},
+    {"ganser", "lone isometric particles, from creeping flow to Re 1e5", "Ganser 1993, eq. 18 and table 7", ganser},
+    {"haider_levenspiel", "lone particles, Re to 25,000; no effect of shape in creeping flow",
+     "Haider and Levenspiel 1989", haider_levenspiel}};
 
 /// Of a law of this list. \param psi  sphericity, above 0 and at most 1
-[[nodiscard]] inline ShapeFactor shape_factor(const ShapeLaw& law, double psi) { return {law.drag(psi), law.drag(1)}; }
+[[nodiscard]] inline ShapeFactor shape_factor(const ShapeLaw& law, double psi) {
+  return {law.drag(psi), law.drag(1), law.packed};
+}
 
 /// The factors of the species of a bed.
 struct BedShape {

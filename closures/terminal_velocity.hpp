@@ -32,7 +32,7 @@ template <class Drag>
 /// The same by the drag of Schiller and Naumann, good to 5 % up to a Reynolds number of 800. \param shape  factor on it
 [[nodiscard]] inline double settling_velocity(double diameter, double excess, double fluid_density, double viscosity,
                                               double gravity, const ShapeFactor& shape = {}) {
-  return terminal_velocity([&](double eps, double re) { return DragSchillerNaumann{}(eps, re).f * shape(re); },
+  return terminal_velocity([&](double eps, double re) { return DragSchillerNaumann{}(eps, re).f * shape(eps, re); },
                            diameter, excess, fluid_density, viscosity, gravity);
 }
 

@@ -75,7 +75,7 @@ double speed_in_fluid(const core::Scene& scene, double first) {
   double fastest = first, inflow = 0;
   for (const core::Species& s : scene.species) {
     const auto drag = [shape = relevance::shape_of(scene, s)](double eps, double re) {
-      return closures::DragTurtonLevenspiel{}(eps, re).f * shape(re);
+      return closures::DragTurtonLevenspiel{}(eps, re).f * shape(eps, re);
     };
     fastest = std::max(fastest, closures::terminal_velocity(drag, s.diameter, s.density - fluid.density, fluid.density,
                                                             fluid.viscosity, scene.column.gravity));

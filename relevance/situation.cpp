@@ -166,7 +166,7 @@ class BedInFluid {
                                                           p.viscosity, scene_.column.gravity, shape);
       if (const double w = std::max(velocity, terminal); w > 0) {
         survey_.situations.push_back(in_zone(p, Zone::freeboard, w, 1, law_));
-        survey_.situations.back().f *= shape(survey_.situations.back().reynolds());
+        survey_.situations.back().f *= shape(1, survey_.situations.back().reynolds());
       }
     }
   }

@@ -144,8 +144,8 @@ void ParticleForces::ask_drag(const Particles& particles, std::size_t begin, std
                               first(batch_.slip), fluid_density_, viscosity_, first(batch_.f), count_);
   if (const auto& shape = laws_.drag->shape)
     for (std::size_t n = 0; n < count; ++n)
-      batch_.f[n] *= shape->species[std::size_t(particles.species[begin + n])](fluid_density_ * batch_.slip[n] *
-                                                                               batch_.size[n] / viscosity_);
+      batch_.f[n] *= shape->species[std::size_t(particles.species[begin + n])](
+          batch_.voidage[n], fluid_density_ * batch_.slip[n] * batch_.size[n] / viscosity_);
   for (std::size_t n = 0; n < count; ++n)
     loads[begin + n].drag = creeping_[std::size_t(particles.species[begin + n])] * batch_.voidage[n] * batch_.f[n];
 }

@@ -119,7 +119,7 @@ std::optional<double> pure_voidage(const BinaryBed& bed, const DragLaw& law, dou
   const double re = bed.fluid.density * u * d / bed.fluid.viscosity;
   const closures::ShapeFactor shape = shape_of(law, j);
   const auto excess = [&](double eps) {
-    const double f = std::visit([&](const auto& l) { return l.base(eps, re).f; }, law.law) * shape(re);
+    const double f = std::visit([&](const auto& l) { return l.base(eps, re).f; }, law.law) * shape(eps, re);
     return 18 * bed.fluid.viscosity * u * f / (eps * d * d) - weight;
   };
   double low = least_voidage, high = 1;
@@ -154,7 +154,7 @@ std::vector<InversionPoint> by_expansion(const BinaryBed& bed, const DragLaw& la
   for (std::size_t j = 0; j < 2; ++j) {
     const closures::DragTurtonLevenspiel single;
     const closures::ShapeFactor shape = shape_of(law, j);
-    terminal[j] = closures::terminal_velocity([&](double eps, double re) { return single(eps, re).f * shape(re); },
+    terminal[j] = closures::terminal_velocity([&](double eps, double re) { return single(eps, re).f * shape(eps, re); },
                                               bed.diameter[j], bed.density[j] - bed.fluid.density, bed.fluid.density,
                                               bed.fluid.viscosity, bed.gravity);
     exponent[j] = closures::DragRichardsonZaki{}.exponent(bed.fluid.density * terminal[j] * bed.diameter[j] /

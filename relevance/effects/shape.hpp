@@ -33,7 +33,7 @@ inline std::optional<EffectRow> weigh_shape(const Weighing& by, EffectRow row) {
   Supremum greatest;
   for (const Situation& s : by.survey.situations)
     for (const core::Species& species : with.species)
-      if (species.name == s.species) greatest.add(s, std::abs(shape_of(with, species)(s.reynolds()) - 1));
+      if (species.name == s.species) greatest.add(s, std::abs(shape_of(with, species)(s.voidage, s.reynolds()) - 1));
   greatest.fill(row);
   row.neglected.reset();
   row.share_off = row.value;
@@ -49,7 +49,8 @@ inline const Effect shape{
     .role = "shape",
     .help = "factor on any drag law for non-spherical particles, by species.sphericity",
     .laws = laws_of_shape(),
-    .advice = {{"ganser", "the default where species.sphericity is below 1: right in creeping flow, too"}},
+    .advice = {{"ergun", "the default where species.sphericity is below 1: beds of a voidage below 0.8"},
+               {"ganser", "particles far apart, which rise or settle alone"}},
     .rules = {needs_a_fluid("shape"),
               rule_of("shape", {"species.sphericity"},
                       "effects.shape = \"{}\" changes nothing: every species is a sphere; give species.sphericity "

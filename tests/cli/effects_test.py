@@ -169,10 +169,10 @@ class Table(Scratch):
         case, below = self.write("shapes.toml", BEADS), ("--set", "species.beads.sphericity=0.8")
         self.assertFalse(self.table(case)[1]["shape"]["on"])
         row = self.table(case, *below)[1]["shape"]
-        self.assertEqual((row["on"], row["model"]), (True, "ganser"))
+        self.assertEqual((row["on"], row["model"]), (True, "ergun"))
         self.assertIn("beads has a sphericity of 0.8", row["reason"])
         shaped, spheres = (self.ends(DONE, "check", case, *below, "--json", "--set", f"effects.shape={law}").stdout for law in ("auto", "none"))
-        self.assertIn("shape = ganser", shaped)
+        self.assertIn("shape = ergun", shaped)
         self.assertRegex(spheres, "off in the case, but needed: .*shape")
         expected = [strict_json(text)["expected"] for text in (shaped, spheres)]
         for of in ("terminal_m_s", "u_mf_m_s"):

@@ -130,14 +130,14 @@ TEST(DragOfShapes, IsThatOfTheSpeciesAndOfTheirMean) {
   const closures::DragLaw law = drag_law_of(scene);
   ASSERT_TRUE(law.shape);
   const auto by_law = [](double psi) { return closures::haider_levenspiel(psi)(50).f; };
-  EXPECT_EQ(law.shape->species[0](50), by_law(0.8) / by_law(1));
-  EXPECT_EQ(law.shape->species[1](50), 1);
-  EXPECT_NEAR(law.shape->mean(50), by_law(0.857143) / by_law(1), 1e-5);  // the digits above
+  EXPECT_EQ(law.shape->species[0](1, 50), by_law(0.8) / by_law(1));
+  EXPECT_EQ(law.shape->species[1](1, 50), 1);
+  EXPECT_NEAR(law.shape->mean(1, 50), by_law(0.857143) / by_law(1), 1e-5);  // the digits above
   EXPECT_EQ(drag_name_of(scene), "wen_yu x haider_levenspiel");
   scene.effects.erase("shape");
   EXPECT_FALSE(drag_law_of(scene).shape) << "off";
   scene.effects["shape"] = "auto";
-  EXPECT_EQ(shape_of(scene, scene.species[0])(0), closures::ganser(0.8).creeping);
+  EXPECT_EQ(shape_of(scene, scene.species[0])(0.5, 0), closures::ergun(0.8).creeping);
 }
 
 }  // namespace
