@@ -10,6 +10,10 @@ namespace {
 
 constexpr std::size_t slice_count = 50;
 
+double volume_of(const Profile& profile, std::size_t species, std::size_t k) {
+  return std::max(profile.fraction[species][k], 0.0) * profile.slab * profile.area(k);
+}
+
 double volume_of(const Profile& profile, std::size_t k) {
   return std::max(profile.solids_fraction(k), 0.0) * profile.slab * profile.area(k);
 }
@@ -31,7 +35,7 @@ double volume_below(const Profile& profile, std::size_t species, double z) {
   double sum = 0;
   for (std::size_t k = 0; k < profile.slabs(); ++k) {
     const double part = std::clamp(z / profile.slab - double(k), 0.0, 1.0);
-    sum += part * std::max(profile.fraction[species][k], 0.0) * profile.slab * profile.area(k);
+    sum += part * volume_of(profile, species, k);
   }
   return sum;
 }
@@ -100,10 +104,33 @@ std::optional<double> half_of_mean(const Profile& profile, double from, double t
   return std::nullopt;
 }
 
-double largest_difference(const std::vector<double>& a, const std::vector<double>& b) {
-  double most = 0;
-  for (std::size_t j = 0; j < a.size(); ++j) most = std::max(most, std::abs(a[j] - b[j]));
-  return most;
+/// A cut above a slab, and how far it separates a species from all others.
+struct Cut {
+  double apart = 0;
+  std::size_t species = 0, slab = 0;
+  double share = 0;  ///< of the species: the mean of the shares below and above
+};
+
+/// 0 without solids.
+double share_in(const Profile& profile, std::size_t species, std::size_t k) {
+  const double all = volume_of(profile, k);
+  return all > 0 ? volume_of(profile, species, k) / all : 0;
+}
+
+/// 2 integral |F_i - F_j| dh: 0 for a mixed pair, 1 for two layers. Both F are linear in h within a slab.
+std::optional<double> separation(const Profile& profile, std::size_t i, std::size_t j) {
+  const double top = profile.slab * double(profile.slabs());
+  const double all_i = volume_below(profile, i, top), all_j = volume_below(profile, j, top);
+  if (!(all_i > 0 && all_j > 0)) return std::nullopt;
+  double sum = 0, before = 0;  // F_i - F_j at the bottom of the slab
+  for (std::size_t k = 0; k < profile.slabs(); ++k) {
+    const double vi = volume_of(profile, i, k), vj = volume_of(profile, j, k);
+    const double after = before + vi / all_i - vj / all_j, ends = std::abs(before) + std::abs(after);
+    const double mean = before * after >= 0 ? ends / 2 : (before * before + after * after) / (2 * ends);
+    sum += mean * (vi + vj) / (all_i + all_j);
+    before = after;
+  }
+  return 2 * sum;
 }
 
 }  // namespace
@@ -157,42 +184,41 @@ std::optional<double> centre_difference(const Profile& profile) {
   return first && second && height && *height > 0 ? std::optional((*second - *first) / *height) : std::nullopt;
 }
 
-std::optional<double> interface_height(const Profile& profile, double tolerance) {
-  if (profile.fraction.size() < 2) return std::nullopt;
-  const auto slices = slices_of(profile);
+std::optional<double> interface_height(const Profile& profile) {
+  constexpr double least = 0.05;  // difference of two layers
+  const std::size_t species = profile.fraction.size();
   const auto surface = bed_height(profile);
-  if (!slices || !surface) return std::nullopt;
-  std::size_t first = 0;
-  while (first + 1 < slice_count && largest_difference(slices->share[first + 1], slices->share[first]) > tolerance)
-    ++first;
-  if (first + 1 == slice_count) return std::nullopt;
-  std::vector<double> sum(profile.fraction.size(), 0.0), mean(sum);
-  std::optional<double> top;
-  for (std::size_t n = first; n < slice_count; ++n) {
-    for (std::size_t j = 0; j < sum.size(); ++j) {
-      sum[j] += slices->share[n][j];
-      mean[j] = sum[j] / double(n - first + 1);
+  if (species < 2 || !surface) return std::nullopt;
+  const double all = total_volume(profile);
+  Cut most;
+  for (std::size_t j = 0; j < species; ++j) {
+    const double whole = volume_below(profile, j, profile.slab * double(profile.slabs()));
+    if (!(whole > 0 && whole < all)) continue;
+    double one = 0, both = 0;
+    for (std::size_t k = 0; k + 1 < profile.slabs(); ++k) {
+      one += volume_of(profile, j, k);
+      both += volume_of(profile, k);
+      const double apart = std::abs(one / whole - (both - one) / (all - whole));
+      if (apart > most.apart + 1e-12) most = {apart, j, k, (one / both + (whole - one) / (all - both)) / 2};
     }
-    if (largest_difference(slices->share[n], mean) < tolerance) top = std::min(slices->top[n], *surface);
   }
-  return top;
+  if (most.apart < least) return surface;
+  const double lower = share_in(profile, most.species, most.slab),
+               upper = share_in(profile, most.species, most.slab + 1);
+  const double part = lower != upper ? std::clamp((lower - most.share) / (lower - upper), 0.0, 1.0) : 0.5;
+  return std::min(profile.centre(most.slab) + part * profile.slab, *surface);
 }
 
 std::optional<double> mixing(const Profile& profile) {
-  const std::size_t species = profile.fraction.size();
-  const auto slices = slices_of(profile);
-  if (species < 2 || !slices) return std::nullopt;
   double sum = 0;
-  std::size_t counted = 0;
-  for (std::size_t j = 0; j < species; ++j) {
-    double mean = 0, spread = 0;
-    for (const auto& share : slices->share) mean += share[j] / slice_count;
-    for (const auto& share : slices->share) spread += (share[j] - mean) * (share[j] - mean) / slice_count;
-    if (!(mean > 0 && mean < 1)) continue;
-    sum += 1 - spread / (mean * (1 - mean));
-    ++counted;
-  }
-  return counted > 0 ? std::optional(sum / double(counted)) : std::nullopt;
+  std::size_t pairs = 0;
+  for (std::size_t i = 0; i < profile.fraction.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      if (const auto apart = separation(profile, i, j)) {
+        sum += 1 - *apart;
+        ++pairs;
+      }
+  return pairs > 0 ? std::optional(sum / double(pairs)) : std::nullopt;
 }
 
 std::optional<double> profile_distance(const Profile& profile, const Profile& reference, std::size_t species) {

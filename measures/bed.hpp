@@ -32,14 +32,15 @@ namespace polybed::measures {
 /// Centre of species 2 minus centre of species 1, over the bed height; empty for one species.
 [[nodiscard]] std::optional<double> centre_difference(const Profile& profile);
 
-/// Top, m, of the lower layer as in the thesis. The profile is cut from below into 50 slices of equal solids volume.
-/// Slices are dropped from below while the next one differs from them by more than `tolerance` in the share of any
-/// species. The interface is the top of the last slice whose shares are within `tolerance` of those accumulated from
-/// the first kept slice, but at most the bed height: the uppermost slices contain solids above the bed, up to the last
-/// trace in the freeboard. Empty for one species, or if no two slices are alike.
-[[nodiscard]] std::optional<double> interface_height(const Profile& profile, double tolerance = 0.05);
+/// Height, m, between two layers: the cut below which the part of a species, F_j, and of all others differ most (the
+/// greatest distance of two distributions, as Kolmogorov and Smirnov measure it), for any shares. Between the centres
+/// of the two slabs at the cut it is where the share, linear there, is the mean of the layers' shares. One layer, with
+/// a difference below 0.05, ends at the bed height, which is the most. Empty for one species.
+[[nodiscard]] std::optional<double> interface_height(const Profile& profile);
 
-/// 1 - mean over the 50 slices of (x - x_mean)^2 / (x_mean (1 - x_mean)), mean over species: 1 mixed, 0 separated.
+/// 1 - 2 integral |F_i - F_j| dh, mean over pairs of species. F is the part of a species below a height and h the part
+/// of the pair. The integral is 1/2 for two layers whatever their volumes: as Goldschmidt et al. (Powder Technology 138
+/// (2003) 135) relate a segregation to the complete one. 1 mixed, 0 separated. Empty without a pair.
 [[nodiscard]] std::optional<double> mixing(const Profile& profile);
 
 /// Integral over z of |phi_j - phi_j,ref| over the integral of phi_j,ref; 0 alike, 2 nowhere together. Empty if the

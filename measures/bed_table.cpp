@@ -10,6 +10,16 @@ Measure<Bed>::OfWhole of_profile(Value (*measure)(const Profile&)) {
   return [measure](const Bed& bed) { return measure(bed.profile); };
 }
 
+Profile by_name(const Profile& profile, const std::vector<Kind>& species) {
+  Profile found{profile.slab, {}, {}, profile.areas};
+  for (const Kind& kind : species) found.fraction.push_back(merged(profile, kind.members).fraction[0]);
+  return found;
+}
+
+Measure<Bed>::OfNamed between_species(Value (*measure)(const Profile&)) {
+  return [measure](const Bed& bed, const std::vector<Kind>& species) { return measure(by_name(bed.profile, species)); };
+}
+
 Value pressure_drop_of(const Bed& bed) {
   if (bed.pressure_drop || bed.profile.pressure.empty()) return bed.pressure_drop;
   return pressure_drop(bed.profile);
@@ -47,8 +57,8 @@ Table<Bed> bed_table() {
        "where two straight lines through p cross, by least squares over z_0.10 to z_0.80 and above 1.1 bed heights",
        of_profile(bed_height_by_pressure), only_profiles},
       {"pressure_drop", "Pa",
-       "net pressure at the bottom less that at the top, continued linearly from the outer two slabs; with the weight "
-       "of a compressible fluid beyond rho_0",
+       "net pressure at the bottom less that at the top, continued linearly from the outer two slabs, in the history "
+       "by the weights in the lowest two; with the weight of a compressible fluid beyond rho_0",
        pressure_drop_of, also_profiles},
       {"buoyant_weight", "Pa",
        "of the bed in the fluid, over the cross-section: the mean pressure drop of a fluidised bed; in a tapered "
@@ -60,15 +70,15 @@ Table<Bed> bed_table() {
       {"top", "m", "bed_height by phi_j alone: how far up the species reaches; in layers the interface to the next one",
        [](const Bed& bed, Members species) { return bed_height(merged(bed.profile, species)); }, also_profiles},
       {"centre_difference", "1", "centre of species 2 less that of species 1, over bed_height",
-       of_profile(centre_difference), only_profiles},
+       between_species(centre_difference), only_profiles},
       {"interface", "m",
-       "the profile cut into 50 slices of equal solids volume; from below, slices are dropped while the next differs "
-       "by more than 0.05 in a share; the top of the last slice within 0.05 of the shares accumulated from the first "
-       "kept one, at most the bed height",
-       [](const Bed& bed) { return interface_height(bed.profile); }, and_picture},
+       "the height at which the parts below it of a species and of all others differ most, as shares of each; the bed "
+       "height if they differ by less than 0.05; size classes count as one species",
+       between_species(interface_height), and_picture},
       {"mixing", "1",
-       "1 - mean over the slices of (x - x_mean)^2/(x_mean (1 - x_mean)), mean over species: 1 mixed, 0 separated",
-       of_profile(mixing), also_profiles},
+       "1 - 2 integral |F_i - F_j| dh, mean over pairs of species: F is the part of a species below a height, h that "
+       "of both together; 1 mixed, 0 in layers, for any shares; size classes count as one species",
+       between_species(mixing), also_profiles},
   };
 }
 
@@ -77,7 +87,10 @@ Table<Beside> distance_table() {
   return {
       {"composition", "1",
        "half the sum over the species of the mean of |x_j - x_j,ref| over the slices: 0 alike, 1 nowhere alike",
-       [](const Beside& beds) { return composition_distance(beds.profile, beds.reference); }, only_profiles},
+       [](const Beside& beds, const std::vector<Kind>& species) {
+         return composition_distance(by_name(beds.profile, species), by_name(beds.reference, species));
+       },
+       only_profiles},
       {"profile", "1",
        "integral over z of |phi_j - phi_j,ref| over that of phi_j,ref, mean over species: 0 alike, 2 nowhere together",
        [](const Beside& beds) { return profile_distance(beds.profile, beds.reference); }, only_profiles},

@@ -21,4 +21,11 @@ std::vector<Kind> kinds_of(const std::vector<std::string>& species) {
   return kinds;
 }
 
+std::vector<Kind> named_species(const std::vector<std::string>& species) {
+  std::vector<Kind> kinds = kinds_of(species);
+  std::erase_if(kinds, [](const Kind& kind) { return kind.is_class; });
+  std::sort(kinds.begin(), kinds.end(), [](const Kind& a, const Kind& b) { return a.members < b.members; });
+  return kinds;
+}
+
 }  // namespace polybed::measures

@@ -35,6 +35,9 @@ struct Kind {
 /// "sand" if a case names a species so itself.
 [[nodiscard]] std::vector<Kind> kinds_of(const std::vector<std::string>& species);
 
+/// The species as the case names them, in its order: size classes count as one.
+[[nodiscard]] std::vector<Kind> named_species(const std::vector<std::string>& species);
+
 /// The readers of a measure.
 struct Readers {
   bool history = true;   ///< history.csv has a column for it
@@ -43,19 +46,27 @@ struct Readers {
   bool picture = false;  ///< a level in the bed, m: pictures of the history and of profiles show it as a line
 };
 
-/// One row: a measure of a `Source`, as a whole or of each species in it.
+/// One row: a measure of a `Source`, as a whole, of each species in it, or between the species that the case names.
 template <class Source>
 struct Measure {
   using OfWhole = std::function<Value(const Source&)>;
   using OfSpecies = std::function<Value(const Source&, Members)>;
+  using OfNamed = std::function<Value(const Source&, const std::vector<Kind>&)>;
 
   std::string name;  ///< "bed_height"; "centre" of the species "fine" is "centre_fine"
   std::string unit;  ///< "1" for a number
   std::string help;  ///< its definition
-  std::variant<OfWhole, OfSpecies> of;
+  std::variant<OfWhole, OfSpecies, OfNamed> of;
   Readers readers = {};
 
   [[nodiscard]] bool of_species() const { return std::holds_alternative<OfSpecies>(of); }
+  /// For a row that is not of each species.
+  [[nodiscard]] OfWhole of_whole(const std::vector<std::string>& species) const {
+    if (const auto* whole = std::get_if<OfWhole>(&of)) return *whole;
+    return [between = std::get<OfNamed>(of), kinds = named_species(species)](const Source& s) {
+      return between(s, kinds);
+    };
+  }
 };
 
 template <class Source>
@@ -88,7 +99,7 @@ template <class Source>
   std::vector<Single<Source>> found;
   for (auto row = table.begin(); row != table.end();) {
     if (!row->of_species()) {
-      found.push_back({row->name, row->unit, row->help, std::get<typename Row::OfWhole>(row->of), row->readers});
+      found.push_back({row->name, row->unit, row->help, row->of_whole(species), row->readers});
       ++row;
       continue;
     }

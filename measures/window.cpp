@@ -22,9 +22,10 @@ double ratio(double above, double below) {
 
 /// Centre of species 2 minus centre of species 1, over the bed height.
 Series centre_difference(const StoredRun& run) {
-  if (run.species.size() < 2) return {};
-  const Series *low = run.history.find("centre_" + run.species[0] + "_m"),
-               *high = run.history.find("centre_" + run.species[1] + "_m"), *height = run.history.find("bed_height_m");
+  const std::vector<Kind> species = named_species(run.species);
+  if (species.size() < 2) return {};
+  const Series *low = run.history.find("centre_" + species[0].name + "_m"),
+               *high = run.history.find("centre_" + species[1].name + "_m"), *height = run.history.find("bed_height_m");
   Series found;
   for (std::size_t n = 0; low != nullptr && high != nullptr && height != nullptr && n < height->size(); ++n)
     found.push_back(ratio((*high)[n] - (*low)[n], (*height)[n]));

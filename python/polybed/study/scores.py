@@ -7,6 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from polybed.quantities import measure_words
+from polybed.read import kinds_among
 from polybed.study.measured import TimeMean, centre_column, means_of
 
 ENOUGH = 30  # autocorrelation times in a window
@@ -108,8 +109,10 @@ def height_score(height):
 def compare(tfm, dem):
     """Measures and scores of two runs of one case, both Measured. Raises ProgramError if their species or slabs are not the same."""
     window, runs, distances = means_of(tfm.directory, beside=dem.directory)
-    species, several = list(runs[0].fraction), len(runs[0].fraction) > 1
-    names = ["bed_height_m", "pressure_drop_Pa", "pressure_drop_over_weight", *map(centre_column, species),
+    species = list(runs[0].fraction)
+    kinds = list(kinds_among(species))  # size classes count as one
+    several, centres = len(kinds) > 1, dict.fromkeys(map(centre_column, [*species, *kinds]))
+    names = ["bed_height_m", "pressure_drop_Pa", "pressure_drop_over_weight", *centres,
              *(["centre_difference", "mixing"] if several else [])]
     measures = {name: Measure(*(run.means.get(name) for run in runs)) for name in names}
     scores = {"e_H": height_score(measures["bed_height_m"])}
@@ -122,7 +125,7 @@ def compare(tfm, dem):
     for model, run, drifts in zip(MODELS, runs, (tfm.drifts, dem.drifts)):
         means = {name: getattr(measure, model) for name, measure in measures.items()}
         found.profiles[model], found.fraction[model] = run.profiles, run.fraction
-        found.top[model] = on_top({name: means[centre_column(name)] for name in species})
+        found.top[model] = on_top({name: means[centre_column(name)] for name in kinds})
         found.warnings += [f"{model}: {line}" for line in (*warnings_of(run, means), *drifts)]
     if not all(found.profiles.values()):
         found.warnings.append("no stored profile of both runs in the window: a smaller output.every stores more")

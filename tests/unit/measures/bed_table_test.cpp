@@ -116,6 +116,18 @@ TEST(BedTable, SizeClassesAreMeasuredAsOneSpeciesToo) {
   EXPECT_NEAR(*named("centre_sand_m", bed, names), (0.04 + 3 * 0.16) / 4, 1e-15);
 }
 
+// Both classes of sand below resin, sorted by size: the sand is one layer up to 0.2 m, the resin another.
+TEST(BedTable, SizeClassesAreOneSpeciesInWhatIsMeasuredBetweenSpecies) {
+  const std::vector<std::string> names{"sand.1", "sand.2", "resin"};
+  const Bed bed{.profile = {0.1, {{0, 0.4, 0, 0}, {0.4, 0, 0, 0}, {0, 0, 0.5, 0.5}}, {}}};
+  EXPECT_NEAR(*named("mixing", bed, names), 0, 1e-14);
+  EXPECT_NEAR(*named("interface_m", bed, names), 0.2, 1e-14);
+  EXPECT_NEAR(*named("centre_difference", bed, names), (0.3 - 0.1) / 0.4, 1e-14);
+  const Bed alone{.profile = {0.1, {{0, 0.4}, {0.4, 0}}, {}}};
+  EXPECT_FALSE(named("mixing", alone, {"sand.1", "sand.2"}));
+  EXPECT_FALSE(named("interface_m", alone, {"sand.1", "sand.2"}));
+}
+
 TEST(BedTable, ASpeciesIsAClassOnlyOfWhatIsNoSpeciesItself) {
   for (const std::vector<std::string>& names :
        {std::vector<std::string>{"sand", "sand.1", "sand.2"}, {"sand.1"}, {"sand.2", "sand.3"}, {"sand", "sand.1"}}) {

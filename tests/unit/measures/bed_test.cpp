@@ -42,16 +42,32 @@ TEST(Measures, TheHeightIsThatOfTheTopNotOfTheInterface) {
   EXPECT_NEAR(*bed_height(p), 0.16, slab / 2);
 }
 
-// Volumes 0.6 * 0.06 = 0.036 below and 0.3 * 0.1 = 0.030 above; the interface at 0.06 lies within slice 28 of
-// 50, whose thickness there is 0.066 / 50 / 0.6 = 2.2 mm below and 4.4 mm above.
 TEST(Measures, TheInterfaceLiesBetweenTwoLayers) {
   const Profile p =
       profile_of([](double z) { return step(z, 0, 0.06, 0.6); }, [](double z) { return step(z, 0.06, 0.16, 0.3); });
-  EXPECT_NEAR(*interface_height(p), 0.06, 4.4e-3);
-  // One of the 50 slices holds the interface, 3/11 : 8/11 of both; all others are pure.
-  EXPECT_NEAR(*mixing(p), 0.0, 1.0 / 50 + 1e-12);
+  EXPECT_NEAR(*interface_height(p), 0.06, 1e-12);
+  EXPECT_NEAR(*mixing(p), 0.0, 1e-12);
   EXPECT_NEAR(*centre(p, 0), 0.03, 1e-12);
   EXPECT_NEAR(*centre(p, 1), 0.11, 1e-12);
+}
+
+// A trace in the lowest of 100 slabs, 1/25 of the volume in it and 1/25 above: F of the trace is 1 there, that of the
+// other 1/26. By hand: h of the slab is 2/27 of 1, |F_i - F_j| rises to 25/26 in it and falls to 0, so that twice the
+// integral is 25/26. Half of the slab belongs to the trace and half to the rest: the interface is near its top.
+TEST(Measures, ATraceBelowTheRestIsSeparated) {
+  Profile p{slab, {std::vector<double>(100, 0.0), std::vector<double>(100, 0.0)}, {}};
+  p.fraction[0][0] = 0.25;
+  for (std::size_t k = 0; k < 26; ++k) p.fraction[1][k] = 0.25;
+  EXPECT_NEAR(*mixing(p), 1.0 / 26, 1e-12);
+  EXPECT_NEAR(*interface_height(p), slab, slab / 2);
+}
+
+// Three layers of two species, half of the outer one on either side: F of the outer one leads by 1/2 and then lags by
+// 1/2, so that twice the integral is 1/2. Their centres are at one height.
+TEST(Measures, ASandwichIsNotMixed) {
+  const Profile p = profile_of([](double z) { return step(z, 0, 0.04, 0.5) + step(z, 0.12, 0.16, 0.5); },
+                               [](double z) { return step(z, 0.04, 0.12, 0.5); });
+  EXPECT_NEAR(*mixing(p), 0.5, 1e-12);
 }
 
 TEST(Measures, AMixedBedIsMixed) {

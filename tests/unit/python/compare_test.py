@@ -89,8 +89,18 @@ class Compare(unittest.TestCase):
         self.assertAlmostEqual(c.scores["profile_fine"].value, 0, delta=1e-12)
         # The fine species has 5/11 and 1/2 of the volume: they differ over 1/22 of it, but for the slice that both cut.
         self.assertAlmostEqual(c.scores["D1"].value, 1 / 22, delta=1 / 50)
-        # The lower layer is pure: the thesis' interface is its top, within a slice of 1/50 of the bed and the tolerance.
-        self.assertAlmostEqual(c.measures["interface_m"].dem.mean, 0.03, delta=0.06 * (0.05 + 1 / 50))
+        self.assertAlmostEqual(c.measures["interface_m"].dem.mean, 0.03, delta=1e-12)
+
+    def test_size_classes_are_one_species(self):
+        run = at_rest(0.03, 0.06)
+        for part, name in ((run.history, "centre_{}_m"), (run.profiles, "phi_{}")):
+            for size in (1, 2):
+                part[name.format(f"fine.{size}")] = part[name.format("fine")] / (2 if "phi" in name else 1)
+        del run.profiles["phi_fine"]
+        c = compare(run, run)
+        self.assertEqual(c.top["tfm"], ("coarse", True))
+        self.assertAlmostEqual(abs(c.measures["centre_difference"].tfm.mean), 0.5, delta=1e-12)
+        self.assertAlmostEqual(c.measures["interface_m"].tfm.mean, 0.03, delta=1e-12)
 
     def test_an_inverted_bed(self):
         c = compare(at_rest(0.03, 0.06, True), at_rest(0.03, 0.06, False))
