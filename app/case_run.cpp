@@ -133,7 +133,7 @@ void CaseRun::go() {
   if (is_over()) return;
   constexpr double longest = 20;  // in units of run.until
   const double until = options_.until_steady() ? longest * scene_.run.until : scene_.run.until;
-  core::Progress progress(options_.quiet, simulation().time(), until);
+  core::Progress progress(options_.quiet, simulation().time(), options_.until_steady() ? scene_.run.until : until);
   core::Stops stops{until, *scene_.output.checkpoint_every, breakpoints()};
   next_look_ = std::max(0.5 * scene_.run.until, apart * simulation().time());
   for (const double change : stops.breakpoints) next_look_ = std::max(next_look_, apart * change);
@@ -149,7 +149,11 @@ void CaseRun::go() {
           refined_ = true;
           prediction_ = predicted_by((core::cpu_seconds() - begin - timers_.seconds("output")) / steps);
         }
-        if (progress.due(simulation().time())) progress.show(line());
+        if (progress.due(simulation().time())) {
+          core::ProgressLine now = line();
+          now.to_steady = options_.until_steady();
+          progress.show(now);
+        }
         return after_step() && !has_become_steady() && !is_over();
       },
       [this] { return stop_wanted(); });

@@ -27,7 +27,7 @@ const std::vector<Term>& terms() {
        "polybed inversion finds the velocity at which layers change places"},
       {"steady", "status",
        "bed height and centres do not drift, or another run as long would move them by less than a thousandth of the "
-       "bed height",
+       "bed height or a twentieth of a cell",
        "if not: the last line of the card is the command that runs on"},
       {"to go on", "line of the card", "of a bed that is not steady: the command that runs it for as long again", ""},
       {"expect", "line of the card",

@@ -59,11 +59,13 @@ Progress::~Progress() {
 
 bool Progress::due(double time) const {
   if (quiet_) return false;
-  return terminal_ ? since(last_) > terminal_interval || time >= until_ : time >= next_ || time >= until_;
+  const bool at_end = time >= until_ && last_time_ < until_;
+  return at_end || (terminal_ ? since(last_) > terminal_interval : time >= next_);
 }
 
 void Progress::show(const ProgressLine& line) {
   last_ = Clock::now();
+  last_time_ = line.time;
   while (next_ <= line.time) next_ += (until_ - from_) / lines_in_pipe;
   const double done = line.time - from_, share = std::clamp(done / (until_ - from_), 0.0, 1.0);
   const double rate = done > 0 ? since(begin_) / done : 0;
@@ -73,7 +75,8 @@ void Progress::show(const ProgressLine& line) {
   const std::string bed = line.bed_height ? fmt::format("  bed {:.1f} mm", 1e3 * *line.bed_height) : "";
   const std::string step = share < enough_to_tell ? "" : fmt::format("  dt {:.2g} s ({})", line.step, line.limited_by);
   const std::string text =
-      fmt::format("t {:.3f}/{:g} s{}{}{}  {}", line.time, line.until, speed, bed, step, line.worst_invariant);
+      fmt::format("t {:.3f}{} s{}{}{}  {}", line.time, line.to_steady ? "" : fmt::format("/{:g}", line.until),
+                  line.to_steady ? ", until steady" : speed, bed, step, line.worst_invariant);
   if (!terminal_) {
     print(stderr, "{}\n", text);
     return;

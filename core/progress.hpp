@@ -13,11 +13,13 @@ struct ProgressLine {
   std::string limited_by;
   std::optional<double> bed_height;  ///< m; empty: not measured yet, or no bed
   std::string worst_invariant;
+  bool to_steady = false;  ///< the end is not known: the run goes on until its bed is steady
 };
 
 class Progress {
  public:
-  /// from: time at which the run begins, s. Writes to standard error, so that standard output contains only answers.
+  /// from: time at which the run begins, s; until: its end, or a time after which it can end once its bed is steady.
+  /// Writes to standard error, so that standard output contains only answers.
   Progress(bool quiet, double from, double until);
   ~Progress();
   Progress(const Progress&) = delete;
@@ -29,7 +31,7 @@ class Progress {
 
  private:
   bool quiet_, terminal_;
-  double from_, until_, next_;
+  double from_, until_, next_, last_time_ = -1;
   std::chrono::steady_clock::time_point begin_, last_;
 };
 

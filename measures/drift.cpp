@@ -11,7 +11,7 @@ namespace polybed::measures {
 namespace {
 
 constexpr std::size_t parts = 10;
-constexpr double matters = 1e-3;  // of the bed's height
+constexpr double matters = 1e-3, of_a_cell = 0.05;  // of the bed's height; of the height of a cell
 
 struct Parts {
   std::array<double, parts> time{}, value{};
@@ -59,7 +59,8 @@ std::optional<Drift> drift_of(std::span<const double> time, std::span<const doub
   return drift;
 }
 
-std::vector<DriftOfMeasure> drifts_of(std::span<const double> time, const std::vector<HeightSeries>& heights) {
+std::vector<DriftOfMeasure> drifts_of(std::span<const double> time, const std::vector<HeightSeries>& heights,
+                                      double cell) {
   std::vector<DriftOfMeasure> found;
   if (time.empty()) return found;
   const Rows rows = last_quarter(time).rows(time);
@@ -67,7 +68,8 @@ std::vector<DriftOfMeasure> drifts_of(std::span<const double> time, const std::v
     const auto drift = drift_of(rows.of(time), rows.of(values));
     if (!drift || !std::isfinite(drift->rate)) continue;
     const double moved = std::abs(drift->rate) * std::max(time.back() - time.front(), settling);
-    const bool steady = std::abs(drift->rate) <= drift->error || moved <= matters * heights[0].values.back();
+    const bool steady = std::abs(drift->rate) <= drift->error ||
+                        moved <= std::max(matters * heights[0].values.back(), of_a_cell * cell);
     found.push_back({name, *drift, steady});
   }
   return found;

@@ -33,9 +33,9 @@ struct HeightSeries {
 
 /// The drift of a run's heights over the last quarter of its time. A drift matters if, over another run of the same
 /// length or over the settling time if that is longer, it would move a height by more than a thousandth of the bed's
-/// height. Empty for a height with too few rows there, or with a row without a value.
-/// \param heights  the bed's height comes first
+/// height and by more than a twentieth of a cell. Empty for a height with too few rows there, or with a row without a
+/// value. \param heights  the bed's height comes first  \param cell  height of a cell, m
 [[nodiscard]] std::vector<DriftOfMeasure> drifts_of(std::span<const double> time,
-                                                    const std::vector<HeightSeries>& heights);
+                                                    const std::vector<HeightSeries>& heights, double cell);
 
 }  // namespace polybed::measures

@@ -172,7 +172,7 @@ void judge_drift(const core::Scene& scene, const Window& window, BedOfRun& bed) 
     settling.push_back(top == nullptr ? 0 : settling_time(scene, species, last(*top)));
   add("bed_height", settling.empty() ? 0 : *std::min_element(settling.begin(), settling.end()));
   for (std::size_t j = 0; j < settling.size(); ++j) add("centre_" + scene.species[j].name, settling[j]);
-  bed.drifts = measures::drifts_of(window.time, heights);
+  bed.drifts = measures::drifts_of(window.time, heights, scene.column.size[1] / scene.column.cells[1]);
   for (const measures::DriftOfMeasure& drift : bed.drifts) bed.steady = bed.steady.value_or(true) && drift.steady;
 }
 

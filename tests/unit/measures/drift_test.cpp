@@ -56,13 +56,14 @@ TEST(Drift, IsNotToldFromTooFewRows) {
   EXPECT_FALSE(drift_of(std::vector<double>(20, 1.0), std::vector<double>(20, 0.1)));
 }
 
-/// 40 s of a bed of 0.1 m, a row every 0.1 s; what its centre does in time is given, and the time of settling, s.
+/// 40 s of a bed of 0.1 m, a row every 0.1 s; what its centre does in time is given, the time of settling, s, and the
+/// height of a cell, m.
 template <class Centre>
-std::vector<DriftOfMeasure> judged(Centre&& centre, double settling = 0) {
+std::vector<DriftOfMeasure> judged(Centre&& centre, double settling = 0, double cell = 0) {
   const double none = std::numeric_limits<double>::quiet_NaN();
   std::vector<double> values;
   for (const double t : times(401, 0.1)) values.push_back(std::optional<double>(centre(t)).value_or(none));
-  return drifts_of(times(401, 0.1), {{"bed_height", std::vector(401, 0.1)}, {"centre_fine", values, settling}});
+  return drifts_of(times(401, 0.1), {{"bed_height", std::vector(401, 0.1)}, {"centre_fine", values, settling}}, cell);
 }
 
 // 1e-3 * 0.1 m/40 s = 2.5 um/s is what matters.
@@ -73,6 +74,12 @@ TEST(Drifts, ASlowDriftIsTold) {
   EXPECT_FALSE(found[1].steady);
   EXPECT_EQ(found[1].name, "centre_fine");
   EXPECT_NEAR(found[1].drift.rate, 3e-6, 1e-14);
+}
+
+// A twentieth of a cell of 4 mm in another 40 s is 5 um/s.
+TEST(Drifts, ADriftFarBelowACellIsSteady) {
+  EXPECT_TRUE(judged([](double t) { return 0.05 + 3e-6 * t; }, 0, 4e-3)[1].steady);
+  EXPECT_FALSE(judged([](double t) { return 0.05 + 6e-6 * t; }, 0, 4e-3)[1].steady);
 }
 
 TEST(Drifts, WhatHasSettledOrOnlySwingsIsSteady) {
@@ -92,7 +99,7 @@ TEST(Drifts, ABedThatCreepsIsNotAtRest) {
 
 TEST(Drifts, ASpeciesThatIsAbsentIsNotJudged) {
   EXPECT_EQ(judged([](double t) { return t > 35 ? std::nullopt : std::optional(0.05); }).size(), 1u);
-  EXPECT_TRUE(drifts_of({}, {}).empty());
+  EXPECT_TRUE(drifts_of({}, {}, 0).empty());
 }
 
 }  // namespace
