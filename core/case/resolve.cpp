@@ -77,15 +77,27 @@ void fill_from_layers(Scene& scene, WrongKeys& wrong) {
   if (!(scene.bed.solids_fraction > 0)) wrong.add("bed.solids_fraction");
 }
 
+bool is_file(const std::filesystem::path& path) {
+  std::error_code error;
+  return std::filesystem::exists(path, error) && !std::filesystem::is_directory(path, error);
+}
+
 /// A path of a list refers to the working directory or, if there is no such file, to the folder of the case.
 void find_list(Bed& bed, const std::string& case_name) {
-  namespace fs = std::filesystem;
-  const auto is_file = [](const fs::path& path) {
-    std::error_code error;
-    return fs::exists(path, error) && !fs::is_directory(path, error);
-  };
-  const fs::path beside = fs::path(case_name).parent_path() / bed.start.file;
+  const std::filesystem::path beside = std::filesystem::path(case_name).parent_path() / bed.start.file;
   if (!is_file(bed.start.file) && is_file(beside)) bed.start.file = beside.string();
+}
+
+/// A path of a law or a table refers to the folder of the case or, if there is no such file, to the working directory;
+/// one from the command line to the working directory alone.
+void find_files_of_laws(Scene& scene, const std::string& case_name) {
+  for (auto& [role, law] : scene.effects)
+    for (const std::string prefix : {"file:", "table:"}) {
+      const bool in_case = scene.places.problem({"effects." + role}, "").line > 0;
+      if (!law.starts_with(prefix) || !in_case) continue;
+      const std::filesystem::path beside = std::filesystem::path(case_name).parent_path() / law.substr(prefix.size());
+      if (is_file(beside)) law = prefix + beside.string();
+    }
 }
 
 void fill_output(Scene& scene) {
@@ -111,6 +123,7 @@ void resolve(Scene& scene, const std::string& case_name, WrongKeys& wrong) {
   join_times(scene);
   resolve_materials(scene);
   fill_output(scene);
+  find_files_of_laws(scene, case_name);
   if (wrong.sound("column.size")) {
     fill_size(scene);
     if (wrong.sound("column.cells")) fill_cells(scene.column);

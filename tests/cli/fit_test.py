@@ -139,6 +139,24 @@ class LawFile(Fitted):
         path.unlink()
         self.ends(FILE, *words, "--force")
 
+    def test_a_case_finds_it_in_its_own_folder(self):
+        """Also from elsewhere, and before one of that name where the program runs."""
+        (self.folder / "own").mkdir()
+        path = self.law(law="cello", common=1.2).rename(self.folder / "own/law.json")
+        self.law(law="cello", common=1.3)
+        case = self.write("own/case.toml", CASE.read_text().replace('"cello"', '"file:law.json"', 1))
+        by_path = self.ends(DONE, "check", case, "--json", "--set", f'effects.drag="file:{path}"').stdout
+        beside, elsewhere = (self.ends(DONE, "check", case, "--json", *words, cwd=self.folder).stdout
+                             for words in ([], ["--set", 'effects.drag="file:law.json"']))
+        u_mf = [strict_json(text)["expected"]["u_mf_m_s"]["mixture"] for text in (by_path, beside, elsewhere)]
+        self.assertEqual(u_mf[0], u_mf[1])
+        self.assertLess(u_mf[2], u_mf[1], "of the command line: where the program runs")
+
+    def test_a_law_leaves_the_partition_of_the_case_and_says_so(self):
+        shared = ["--set", "effects.drag=wen_yu", "--set", "effects.partition=brinkman_oseen", "--law", "ergun"]
+        self.assertIn('partition = "brinkman_oseen" of the case', self.ends(DONE, "inversion", SYSTEM_B, *shared).stderr)
+        self.assertEqual(self.ends(DONE, "inversion", SYSTEM_B, *shared, "--partition", "none").stderr, "")
+
     def test_it_acts_as_the_law_that_it_names(self):
         path = self.law(law="cello")
         plain = self.ends(DONE, "inversion", SYSTEM_B, "--json").stdout
