@@ -20,6 +20,8 @@ import itertools
 import math
 import os
 import tomllib
+import warnings
+from collections import Counter
 from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 from typing import Any, ParamSpec, TypeVar
@@ -182,6 +184,22 @@ def run(case: Place, model: str = "tfm", overrides: Overrides | None = None, out
                 lambda digest: Path(output) if output else folder_of(case, model, digest), resume)
 
 
+def differing_effects(texts: Iterable[str]) -> str:
+    """A warning if the program chooses other effects for some of these resolved cases than for others, with the overrides that give all of
+    them the same; empty if it does not. A role that any case has is on, by the law of the first."""
+    laws: dict[str, list[str]] = {}
+    cases = [tomllib.loads(text) for text in texts]
+    for role in sorted({role for keys in cases for role in keys.get("chooser", {}).get("chosen", [])}):
+        laws[role] = [keys["effects"].get(role, "none") for keys in cases]
+    laws = {role: found for role, found in laws.items() if len(set(found)) > 1}
+    if not laws:
+        return ""
+    differ = "; ".join(f"{role}: " + ", ".join(f"{law} in {count}" for law, count in Counter(found).items()) for role, found in laws.items())
+    same = {f"effects.{role}": next(law for law in found if law != "none") for role, found in laws.items()}
+    return (f"the {len(cases)} runs are not of the same physics, because effects are chosen for each by itself ({differ}); "
+            f"for the same effects in all of them: overrides={same}")
+
+
 @names_itself
 def sweep(case: Place, key: str | Mapping[str, Iterable[Value]], values: Iterable[Value] = (), model: str = "tfm",
           overrides: Overrides | None = None, output: Place | None = None, until: Value | None = None, at_once: int = 1,
@@ -194,6 +212,7 @@ def sweep(case: Place, key: str | Mapping[str, Iterable[Value]], values: Iterabl
     resume: continues runs that were killed from their checkpoints, under the conditions of polybed.run; others begin anew, failed ones among
     them; finished runs are opened in any case
     keep_failed: returns also runs whose numerics failed, code 3, of which `record["state"]` says why; otherwise the first one ends the sweep
+    Warns before the runs if effects that the case leaves to the program differ between them.
     """
     axes = {key: values} if isinstance(key, str) else key
     each, done = [dict(zip(axes, point)) for point in itertools.product(*map(list, axes.values()))], itertools.count(1)
@@ -214,6 +233,9 @@ def sweep(case: Place, key: str | Mapping[str, Iterable[Value]], values: Iterabl
             teller(quiet)(f"{next(done)} of {len(each)} runs done: {shown}\n")
         return found
     with side_by_side(at_once) as pool:
+        texts = pool.map(lambda point: resolved(case, dict(overrides or {}) | point, until)[0], each)
+        if differ := differing_effects(texts):
+            warnings.warn(differ, stacklevel=3)  # at the caller of sweep
         return list(pool.map(one, range(len(each))))
 
 

@@ -130,6 +130,14 @@ class Results(Scratch):
                 self.assertEqual(of_program.resumable(folder, "tfm", text), time <= 4e-3)
                 self.assertTrue(of_program.resumable(folder, "tfm", text, True))
 
+    def test_a_sweep_says_which_effects_differ_between_its_runs(self):
+        cases = [f'[effects]\ndrag = "ergun"\n{lift}[chooser]\nchosen = ["lift", "drag"]\n' for lift in ("", 'lift = "saffman_mei"\n')]
+        told = of_program.differing_effects(cases)
+        self.assertIn("lift: none in 1, saffman_mei in 1", told)
+        self.assertTrue(told.endswith("overrides={'effects.lift': 'saffman_mei'}"), told)
+        self.assertEqual(of_program.differing_effects(cases[:1] * 2), "")
+        self.assertEqual(of_program.differing_effects(text.replace("chosen", "named") for text in cases), "")
+
     def test_a_sweep_begins_failed_runs_anew(self):
         """From the checkpoint of its failure a run would fail at once, without a row at the start."""
         def swept(resume):
