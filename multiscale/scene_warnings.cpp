@@ -125,16 +125,26 @@ void warn_of_dense_packing(const core::Scene& scene, Lines& warnings) {
         given, densest, 100 * (given / densest - 1)));
 }
 
+constexpr double least_rows = 4, least_diameters = 1.5;  // of cells in a bed; of the largest particles in a cell
+
+/// Whether no grid can have both: the bed is a few particles high.
+bool is_thin(const core::Scene& scene) {
+  return scene.bed.static_height < least_rows * least_diameters * core::largest_diameter(scene);
+}
+
 /// Warns if the settled bed or the whole column has too few rows of cells.
 void warn_of_coarse_grid(const core::Scene& scene, Lines& warnings) {
-  constexpr double least_rows = 4;
   const double row = scene.column.size[1] / scene.column.cells[1], bed = scene.bed.static_height;
   if (scene.bed.held || !scene.feeds.empty() || !(bed > 0)) return;
   if (const double rows = bed / row; rows < least_rows || scene.column.cells[1] < least_rows)
     warnings.push_back(fmt::format(
         "column.cells: the settled bed of {:.3g} mm is {:.2g} rows of cells high, {:.3g} mm each: heights are "
-        "off by up to a row, the pressure drop by up to 60 %; take rows of a tenth of the bed",
-        1e3 * bed, rows, 1e3 * row));
+        "off by up to a row, the pressure drop by up to 60 %; {}",
+        1e3 * bed, rows, 1e3 * row,
+        is_thin(scene) ? fmt::format("no grid suits a bed of {:.2g} of the largest diameters: use polybed dem",
+                                     bed / core::largest_diameter(scene))
+                       : fmt::format("take rows of {:.2g} mm",
+                                     1e3 * std::max(bed / 10, least_diameters * core::largest_diameter(scene)))));
 }
 
 void warn_of_fine_grid(const core::Scene& scene, Lines& warnings) {
@@ -142,12 +152,18 @@ void warn_of_fine_grid(const core::Scene& scene, Lines& warnings) {
   for (const std::size_t axis : {0, 2})
     if (scene.column.cells[axis] > 1) least = std::min(least, scene.column.size[axis] / scene.column.cells[axis]);
   const double largest = core::largest_diameter(scene);
-  if (least < largest)
+  const bool thin = is_thin(scene) && !scene.bed.held && scene.feeds.empty();
+  if (thin && scene.bed.static_height >= least_rows * least)
+    warnings.push_back(fmt::format(
+        "column.cells: the settled bed of {:.3g} mm is {:.2g} of the largest diameters high: no grid has both rows of "
+        "some diameters and {:g} rows in the bed, so that the continuum has no meaning there: use polybed dem",
+        1e3 * scene.bed.static_height, scene.bed.static_height / largest, least_rows));
+  else if (least < largest && !thin)
     warnings.push_back(fmt::format(
         "column.cells: cells of {:.3g} mm are {:.2g} of the largest diameters wide: the equations average over "
         "many particles, so that what differs over less than some diameters has no meaning, and a finer grid "
-        "shows more of it and does not converge; take cells of 1.5 diameters or more",
-        1e3 * least, least / largest));
+        "shows more of it and does not converge; take cells of {:g} diameters or more",
+        1e3 * least, least / largest, least_diameters));
 }
 
 /// Not rejected: cases in a chain are checked before the run whose checkpoint the next one needs.

@@ -129,6 +129,17 @@ class Warnings(CaseTest):
         self.assertRegex(done.stderr, "warning: column.cells: " + few.format(r"0\.9", r"66\.7"))
         self.assertRegex("\n".join(strict_json((self.folder / "run/run.json").read_text())["warnings"]), few.format(r"0\.9", r"66\.7"))
 
+    def test_notes_on_the_grid_can_be_followed(self):
+        """Particles of 0.8 mm. Of a bed of 10 mm a tenth is below 1.5 diameters, which is then the advice; one of 4 mm has no good grid."""
+        low, thin = 'bed.static_height="10 mm"', 'bed.static_height="4 mm"'
+        self.assertRegex("\n".join(self.notes(low, "column.cells=[6, 20]")), r"the pressure drop by up to 60 %; take rows of 1\.2 mm")
+        self.assertNotRegex("\n".join(self.notes(low, "column.cells=[50, 166]")), "column.cells")
+        for cells, told in (("[6, 20]", "no grid suits a bed of 5 of the largest diameters: use polybed dem"),
+                            ("[6, 400]", "is 5 of the largest diameters high: no grid has both rows of some diameters and 4 rows in the bed")):
+            notes = [note for note in self.notes(thin, f"column.cells={cells}") if "column.cells" in note]
+            self.assertRegex("\n".join(notes), told)
+            self.assertEqual(len(notes), 1, notes)
+
     def test_a_bed_that_hangs_is_warned_of(self):
         """Beads of 700 kg/m3 in water that flows down: what would spread it evenly is named, and then nothing is left to say."""
         told = "\n".join(self.notes("species.fine.density=700", "inlet.superficial_velocity=-0.01"))
