@@ -112,6 +112,20 @@ measures::Profile part_of_profile(const Model& model) {
   return profile;
 }
 
+/// Net pressure at the bottom minus the top, Pa. In the lowest half cell it falls by the weight of the solids there:
+/// from the pressures alone, linear, a heavy layer of one cell under a light bed would count half.
+double pressure_drop_of(const measures::Profile& profile, const Constants& constants) {
+  const double linear = measures::pressure_drop(profile);
+  if (profile.slabs() < 2) return linear;
+  double weight[2] = {0, 0};
+  for (std::size_t j = 0; j < constants.species(); ++j)
+    for (std::size_t k = 0; k < 2; ++k)
+      weight[k] += profile.fraction[j][k] * (constants.density[j] - constants.fluid.density);
+  if (!(weight[0] * weight[1] > 0)) return linear;
+  const double share = weight[0] / (weight[0] + weight[1]);  // of the fall between the centres of both cells
+  return linear + (share - 0.5) * (profile.pressure[0] - profile.pressure[1]);
+}
+
 }  // namespace
 
 Observers::Observers(const Model& model, const std::filesystem::path& directory, double rtol,
@@ -185,7 +199,8 @@ void Observers::write_history(double time) {
     bed.buoyant_weight +=
         carried * (1 - constants.fluid.density / constants.density[j]) * constants.gravity * -constants.down[1] / area;
   }
-  force_balance_ = bed.buoyant_weight != 0 ? measures::pressure_drop(bed.profile) / bed.buoyant_weight : 0;
+  bed.pressure_drop = pressure_drop_of(bed.profile, constants);
+  force_balance_ = bed.buoyant_weight != 0 ? *bed.pressure_drop / bed.buoyant_weight : 0;
   bed_height_ = measures::bed_height(bed.profile);
   const std::vector<measures::Value> row = history_.row(bed, told(watched, time));
   watch(bed.time, well_posed.column());
