@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <numeric>
 #include <optional>
@@ -25,10 +26,14 @@ namespace {
 struct DragOptions {
   std::string law = "cello", partition = "none", csv;
   std::optional<double> voidage, reynolds;
-  bool guard = true, json = false;
+  bool guard = true, json = false, list = false;
+  std::optional<double> sphericity;
+  std::string shape = std::string(closures::shape_laws[0].name);
 };
 
 using closures::DragLaw;
+
+constexpr std::size_t most_species = 64;  // of one sphericity in a row of a table
 
 DragLaw law_of(const DragOptions& options) {
   const auto names = closures::drag_law_names();
@@ -38,8 +43,13 @@ DragLaw law_of(const DragOptions& options) {
                           (near.empty() ? "; see polybed list" : "; did you mean '" + near + "'?"));
   }
   try {
-    return relevance::drag_law_named(options.law, options.partition,
-                                     options.guard ? closures::Guard::on : closures::Guard::off);
+    DragLaw law = relevance::drag_law_named(options.law, options.partition,
+                                            options.guard ? closures::Guard::on : closures::Guard::off);
+    if (!options.sphericity) return law;
+    const closures::ShapeFactor factor =
+        closures::shape_factor(closures::shape_law_named(options.shape), *options.sphericity);
+    law.shape = {std::vector(most_species, factor), factor};
+    return law;
   } catch (const std::invalid_argument& error) {
     throw core::CaseError(std::string(error.what()) + "; see polybed list");
   }
@@ -88,13 +98,30 @@ std::vector<std::pair<double, std::string>> laws_at(double voidage, double reyno
   return found;
 }
 
+/// The drag by each formula of the shape.
+std::map<std::string, double> by_shapes(DragOptions options) {
+  std::map<std::string, double> found;
+  for (const closures::ShapeLaw& shape : closures::shape_laws) {
+    options.shape = shape.name;
+    closures::GuardCount count;
+    found.emplace(shape.name, at_point(law_of(options), *options.voidage, *options.reynolds, count, ""));
+  }
+  return found;
+}
+
 /// Describes the number on standard error, so that scripts read only the number.
 void explain_point(const DragOptions& options, double f, bool outside) {
   core::print(stderr,
               "f = {:.5g}: drag without buoyancy over Stokes drag 3 pi mu D u, unit 1; n = f/voidage = {:.5g}\n", f,
               f / *options.voidage);
   for (const closures::DragLawInfo& info : closures::drag_laws())
-    if (info.name == options.law) core::print(stderr, "law {}: {}\n", info.name, info.help);
+    if (info.name == options.law) core::print(stderr, "law {}: {}; {}\n", info.name, info.help, info.source);
+  if (options.sphericity) {
+    core::print(stderr, "sphericity {:g}, shape {}", *options.sphericity, options.shape);
+    for (const auto& [shape, of_it] : by_shapes(options))
+      if (shape != options.shape) core::print(stderr, "; by {} f = {:.5g}", shape, of_it);
+    core::print(stderr, "\n");
+  }
   core::print(stderr, "range: {}\n",
               !outside        ? "within"
               : options.guard ? "outside the range of the law; its extension (guard) answered"
@@ -109,13 +136,11 @@ void print_point(const DragOptions& options, const DragLaw& law) {
   closures::GuardCount count;
   const double f = at_point(law, *options.voidage, *options.reynolds, count, "");
   if (options.json) {
-    core::print("{}\n", core::json_text({{"law", options.law},
-                                         {"voidage", *options.voidage},
-                                         {"re", *options.reynolds},
-                                         {"f", f},
-                                         {"n", f / *options.voidage},
-                                         {"guarded", count.guarded > 0}}));
-    return;
+    core::Json json = {{"law", options.law},        {"voidage", *options.voidage}, {"re", *options.reynolds}, {"f", f},
+                       {"n", f / *options.voidage}, {"guarded", count.guarded > 0}};
+    if (options.sphericity)
+      json.update({{"sphericity", *options.sphericity}, {"shape", options.shape}, {"f_by_shape", by_shapes(options)}});
+    return core::print("{}\n", core::json_text(json));
   }
   core::print("{}\n", f);
   explain_point(options, f, count.guarded > 0);
@@ -160,6 +185,8 @@ std::vector<double> answer(const DragLaw& law, const Row& row) {
   const double mean = closures::sauter_diameter(row.share, row.diameter);
   std::vector<double> f(n), slope(n), slip(n, re / mean);  // density and viscosity 1: Re = slip D
   double f_mean = 0;
+  if (law.shape && n > most_species)
+    throw core::CaseError(fmt::format("{}{} species with --sphericity; at most {}", row.where, n, most_species));
   try {
     closures::drag_of_mixture(law, eps, row.share, row.diameter, slip, 1, 1, f, slope);
     f_mean = closures::drag_of_mean(law, eps, re, row.share, row.diameter, f);
@@ -278,7 +305,21 @@ void print_json(const DragOptions& options, const DragLaw& law) {
   core::print("{}\n", core::json_text(json));
 }
 
+/// All laws, partitions and formulas of the shape, each with its source.
+void print_list() {
+  const auto print = [](std::string_view name, std::string_view help, std::string_view source) {
+    core::print("  {:20} {}\n  {:20} {}\n", name, help, "", source);
+  };
+  core::print("laws, --law:\n");
+  for (const closures::DragLawInfo& law : closures::drag_laws()) print(law.name, law.help, law.source);
+  core::print("partitions, --partition:\n");
+  for (const closures::DragLawInfo& law : closures::partitions()) print(law.name, law.help, law.source);
+  core::print("formulas of the shape, --shape:\n");
+  for (const closures::ShapeLaw& law : closures::shape_laws) print(law.name, law.help, law.source);
+}
+
 void run_drag(const DragOptions& options) {
+  if (options.list) return print_list();
   const DragLaw law = law_of(options);
   if (!options.csv.empty()) return options.json ? print_json(options, law) : print_csv(options, law);
   if (!options.voidage || !options.reynolds) throw core::CaseError("give --voidage and --re, or --csv FILE");
@@ -289,7 +330,10 @@ void run_drag(const DragOptions& options) {
 
 core::Json drag_of_points(const core::Json& question) {
   const auto name = [&](const char* what) { return core::text_of(core::member_of(question, what)); };
-  const DragLaw chosen = law_of({name("law"), name("partition"), "", {}, {}});
+  DragOptions options;
+  options.law = name("law");
+  options.partition = name("partition");
+  const DragLaw chosen = law_of(options);
   core::Json answers = core::Json::array();
   for (const core::Json& point : core::array_of(core::member_of(question, "points"))) {
     Row row{"", fmt::format("point {}: ", answers.size() + 1), {}, {}, {}};
@@ -307,6 +351,10 @@ void add_drag(CLI::App& app, Commands& commands) {
   command.add_option("--partition", options->partition, "that shares the law among species; see polybed list");
   command.add_option("--voidage", options->voidage, "eps");
   command.add_option("--re", options->reynolds, "Reynolds number of the diameter and the superficial slip velocity");
+  command.add_option("--sphericity", options->sphericity, "of the particles, 0.2 to 1")->check(CLI::Range(0.2, 1.0));
+  command.add_option("--shape", options->shape, "formula of the shape; the other one is printed next to it")
+      ->check(CLI::IsMember({"ganser", "haider_levenspiel"}));
+  command.add_flag("--list", options->list, "all laws with their sources");
   command.add_option("--csv", options->csv, "file with columns eps,Re or eps,Re,x1,D1,x2,D2,...");
   command.add_option("--guard", *guard, "on | off: the bare published formula")->check(CLI::IsMember({"on", "off"}));
   command.add_flag("--json", options->json, "one JSON object");

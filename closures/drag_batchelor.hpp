@@ -10,7 +10,7 @@ namespace polybed::closures {
 struct DragBatchelor {
   static constexpr std::string_view name = "batchelor";
   static constexpr std::string_view help = "dilute suspension, creeping flow; solids fraction < 0.05";
-  static constexpr std::string_view source = "Cello 2009, eq. 3.22";
+  static constexpr std::string_view source = "Batchelor 1972; Cello 2009, eq. 3.22";
   Guard guard = Guard::on;
   /// f = eps/(1 - 6.55 phi), singular at eps 0.8473; the guard uses its tangent beyond phi = 0.05.
   DragValue operator()(double eps, double) const {

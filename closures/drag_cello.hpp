@@ -36,7 +36,8 @@ struct CelloConstants {
 struct PublishedCello {
   static constexpr std::string_view name = "cello";
   static constexpr std::string_view help = "mixtures, fitted to resolved flow; voidage 0.35-1, Re <= 1050";
-  static constexpr std::string_view source = "Cello 2009, eqs. 4.1-4.2, on lattice-Boltzmann data";
+  static constexpr std::string_view source =
+      "Cello, Di Renzo and Di Maio 2010; Cello 2009, eqs. 4.1-4.2, on lattice-Boltzmann data";
   static constexpr CelloConstants constants{};
 };
 

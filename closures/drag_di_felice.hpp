@@ -13,7 +13,7 @@ namespace polybed::closures {
 struct DragDiFelice {
   static constexpr std::string_view name = "di_felice";
   static constexpr std::string_view help = "bed of any voidage";
-  static constexpr std::string_view source = "Cello 2009, eq. 3.30";
+  static constexpr std::string_view source = "Di Felice 1994; Cello 2009, eq. 3.30";
   Guard guard = Guard::on;
   /// f = f_Dallavalle(Re) eps^-p, p = 3.7 - 0.65 exp[-(1.5 - log10 Re)^2/2]; p = 3.7 at Re = 0.
   DragValue operator()(double eps, double re) const {

@@ -12,7 +12,7 @@ namespace polybed::closures {
 struct DragFand {
   static constexpr std::string_view name = "fand";
   static constexpr std::string_view help = "packed bed in three regimes of flow, voidage 0.342-0.360, Re <= 408";
-  static constexpr std::string_view source = "Cello 2009, eq. 3.25";
+  static constexpr std::string_view source = "Fand, Kim, Lam and Phan 1987; Cello 2009, eq. 3.25";
   Guard guard = Guard::on;
   /// f = [A(1-eps) + B Re]/(18 eps^2). Re < 2.3: A 192.24 (36 kappa, kappa 5.34), B 0; 5-80: 182, 1.92; > 120: 225,
   /// 1.61; linear in Re across the gaps. Bare: A 210 below 2.3, as printed, and std::domain_error in the gaps.

@@ -12,7 +12,7 @@ namespace polybed::closures {
 struct DragRichardsonZaki {
   static constexpr std::string_view name = "richardson_zaki";
   static constexpr std::string_view help = "evenly expanded bed of any voidage, on turton_levenspiel";
-  static constexpr std::string_view source = "Cello 2009, eqs. 3.26-3.28";
+  static constexpr std::string_view source = "Richardson and Zaki 1954; Cello 2009, eqs. 3.26-3.28";
   Guard guard = Guard::on;
 
   /// Exponent q(Re_t), T(3.28): 4.65 to 0.2; 4.45 Re_t^-0.1 for 1-500; 2.39 above; linear in log Re_t from

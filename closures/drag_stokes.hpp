@@ -10,7 +10,7 @@ namespace polybed::closures {
 struct DragStokes {
   static constexpr std::string_view name = "stokes";
   static constexpr std::string_view help = "one sphere, creeping flow: Re < 0.1";
-  static constexpr std::string_view source = "Cello 2009, eq. 3.18";
+  static constexpr std::string_view source = "Stokes 1851; Cello 2009, eq. 3.18";
   Guard guard = Guard::on;
   /// f = 1 at any voidage and Reynolds number.
   DragValue operator()(double, double) const { return {1, 0}; }

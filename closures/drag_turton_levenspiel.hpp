@@ -11,7 +11,7 @@ namespace polybed::closures {
 struct DragTurtonLevenspiel {
   static constexpr std::string_view name = "turton_levenspiel";
   static constexpr std::string_view help = "one sphere up to the drag crisis: Re < 2.6e5";
-  static constexpr std::string_view source = "Cello 2009, eq. 3.19";
+  static constexpr std::string_view source = "Turton and Levenspiel 1986; Cello 2009, eq. 3.19";
   Guard guard = Guard::on;
   /// T(Re) = 1 + 0.173 Re^0.657 + (0.413 Re/24)/(1 + 16300 Re^-1.09); Re df/dRe -> 0 at Re = 0 though df/dRe
   /// is infinite.

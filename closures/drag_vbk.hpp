@@ -15,7 +15,7 @@ struct DragVbk {
   static constexpr std::string_view name = "vbk";
   static constexpr std::string_view help = "fitted to resolved flow; voidage 0.40-0.90, Re < 1050";
   static constexpr std::string_view source =
-      "Van der Hoef, Beetstra and Kuipers, lattice-Boltzmann; Cello 2009, eq. 3.32";
+      "Van der Hoef, Beetstra and Kuipers 2005 and 2007, lattice-Boltzmann; Cello 2009, eq. 3.32";
   Guard guard = Guard::on;
   /// f = 10 phi/eps^2 + eps^2 (1 + 1.5 sqrt phi)
   ///     + (0.413 Re/(24 eps^2)) (1/eps + 3 eps phi + 8.4 Re^-0.343)/(1 + 10^(3 phi) Re^(-0.5-2 phi)); last

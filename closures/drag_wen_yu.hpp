@@ -11,7 +11,7 @@ namespace polybed::closures {
 struct DragWenYu {
   static constexpr std::string_view name = "wen_yu";
   static constexpr std::string_view help = "expanded bed, voidage > 0.8";
-  static constexpr std::string_view source = "Cello 2009, eq. 3.29";
+  static constexpr std::string_view source = "Wen and Yu 1966; Cello 2009, eq. 3.29";
   Guard guard = Guard::on;
   /// f = f_SchillerNaumann(Re) eps^-3.65.
   DragValue operator()(double eps, double re) const {

@@ -35,7 +35,8 @@ struct CelloShares {
   static constexpr std::string_view name = "cello", help = DragCello::help, source = DragCello::source;
   static constexpr std::string_view shares = "by diameter and voidage, fitted to resolved flow";
   static constexpr std::string_view shares_source =
-      "Omega_j = y_j [1 + h (y_j - 1)/y_m], h by voidage; Cello 2009, eqs. 4.18-4.21, 4.28";
+      "Omega_j = y_j [1 + h (y_j - 1)/y_m], h by voidage; Cello, Di Renzo and Di Maio 2010; Cello 2009, eqs. "
+      "4.18-4.21, 4.28";
   static constexpr bool obeys_sum_rule = true;
   static constexpr bool mean_is_base = true;
   using Base = Mean;
@@ -65,9 +66,11 @@ using MixtureFittedCello = CelloShares<DragFittedCello>;
 template <class Mean>
 struct VbkTheoryShares {
   static constexpr std::string_view name = "vbk_theory", help = "vbk for mixtures, shared by diameter alone";
-  static constexpr std::string_view source = "vbk with Omega_j = y_j; Cello 2009, eq. 3.53";
+  static constexpr std::string_view source =
+      "vbk with Omega_j = y_j; Van der Hoef, Beetstra and Kuipers 2005; Cello 2009, eq. 3.53";
   static constexpr std::string_view shares = "by diameter alone";
-  static constexpr std::string_view shares_source = "Omega_j = y_j; Cello 2009, eq. 3.53";
+  static constexpr std::string_view shares_source =
+      "Omega_j = y_j; Van der Hoef, Beetstra and Kuipers 2005; Cello 2009, eq. 3.53";
   static constexpr bool obeys_sum_rule = true;
   static constexpr bool mean_is_base = true;
   using Base = Mean;
@@ -84,10 +87,12 @@ using MixtureVbkTheory = VbkTheoryShares<DragVbk>;
 template <class Mean>
 struct VbkCorrectedShares {
   static constexpr std::string_view name = "vbk_corrected", help = "vbk for mixtures, more drag on large particles";
-  static constexpr std::string_view source = "vbk with Omega_j = y_j + 0.064 y_j^3; Cello 2009, eq. 3.54";
+  static constexpr std::string_view source =
+      "vbk with Omega_j = y_j + 0.064 y_j^3; Beetstra, Van der Hoef and Kuipers 2007; Cello 2009, eq. 3.54";
   static constexpr std::string_view shares =
       "by diameter, more for large particles; voidage 0.35-0.90, diameter over mean 0.44-2.52";
-  static constexpr std::string_view shares_source = "Omega_j = y_j + 0.064 y_j^3; Cello 2009, eq. 3.54";
+  static constexpr std::string_view shares_source =
+      "Omega_j = y_j + 0.064 y_j^3; Beetstra, Van der Hoef and Kuipers 2007; Cello 2009, eq. 3.54";
   static constexpr bool obeys_sum_rule = false;
   static constexpr bool mean_is_base = true;
   using Base = Mean;
@@ -108,7 +113,8 @@ struct MixtureYinSundaresan {
   static constexpr std::string_view source = "Yin and Sundaresan 2009; Cello 2009, eqs. 3.55-3.56";
   static constexpr std::string_view shares = "by diameter and voidage, creeping flow; voidage 0.60-0.90";
   static constexpr std::string_view shares_source =
-      "1/eps + (f_cello - 1/eps)[a y_j + (1-a) y_j^2] over f_cello; Cello 2009, eqs. 3.55-3.56";
+      "1/eps + (f_cello - 1/eps)[a y_j + (1-a) y_j^2] over f_cello; Yin and Sundaresan 2009; Cello 2009, eqs. "
+      "3.55-3.56";
   static constexpr bool obeys_sum_rule = false;
   static constexpr bool mean_is_base = true;
   using Base = DragCello;

@@ -84,6 +84,13 @@ inline constexpr ShapeLaw shape_laws[] = {
     {"haider_levenspiel", "lone particles, Re to 25,000; no effect of shape in creeping flow",
      "Haider and Levenspiel 1989", haider_levenspiel}};
 
+/// A law of this list; the first for any other name, which is left to the chooser.
+[[nodiscard]] constexpr const ShapeLaw& shape_law_named(std::string_view name) {
+  for (const ShapeLaw& law : shape_laws)
+    if (law.name == name) return law;
+  return shape_laws[0];
+}
+
 /// Of a law of this list. \param psi  sphericity, above 0 and at most 1
 [[nodiscard]] inline ShapeFactor shape_factor(const ShapeLaw& law, double psi) {
   return {law.drag(psi), law.drag(1), law.packed};

@@ -188,12 +188,18 @@ closures::DragLaw drag_law_named(const std::string& law, const std::string& part
   return closures::shared_by(law_of_file(file, guard), file.form.empty() ? file.law : law, partition, guard);
 }
 
+std::vector<std::string> other_shapes(const core::Scene& scene) {
+  std::vector<std::string> others;
+  if (!core::acts(scene, "shape") || core::all_spheres(scene)) return others;
+  for (const closures::ShapeLaw& law : closures::shape_laws)
+    if (law.name != closures::shape_law_named(core::law_of(scene, "shape")).name) others.emplace_back(law.name);
+  return others;
+}
+
 closures::ShapeFactor shape_of(const core::Scene& scene, const core::Species& species) {
   const std::string name = core::law_of(scene, "shape");
-  if (core::is_off(name)) return {};
-  for (const closures::ShapeLaw& law : closures::shape_laws)
-    if (law.name == name) return closures::shape_factor(law, species.sphericity);
-  return closures::shape_factor(closures::shape_laws[0], species.sphericity);  // left to the chooser
+  return core::is_off(name) ? closures::ShapeFactor()
+                            : closures::shape_factor(closures::shape_law_named(name), species.sphericity);
 }
 
 closures::DragLaw with_shape(closures::DragLaw law, const core::Scene& scene) {

@@ -22,6 +22,9 @@ namespace polybed::relevance {
 /// The law on particles of the shapes that a case gives its species, where it has effects.shape.
 [[nodiscard]] closures::DragLaw with_shape(closures::DragLaw law, const core::Scene& scene);
 
+/// The formulas of the shape that a case with particles other than spheres does not use.
+[[nodiscard]] std::vector<std::string> other_shapes(const core::Scene& scene);
+
 /// The factor of the shape of a species on drag; 1 without effects.shape.
 [[nodiscard]] closures::ShapeFactor shape_of(const core::Scene& scene, const core::Species& species);
 

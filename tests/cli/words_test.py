@@ -172,6 +172,19 @@ class Numbers(Scratch):
             self.assertIn(part, done.stderr)
         low, high = map(float, re.search(r"band: ([\d.]+) .* to ([\d.]+) ", done.stderr).groups())
         self.assertTrue(low <= 24.445 and high >= 24.444)
+        # By hand: in creeping flow Ganser's factor is (1 + 2 psi^-1/2)/3, and the other formula has none.
+        point = ["drag", "--law", "stokes", "--voidage", "1", "--re", "1e-12", "--sphericity", "0.81"]
+        found = strict_json(self.ends(DONE, *point, "--json").stdout)
+        self.assertAlmostEqual(found["f"], (1 + 2 / 0.9) / 3, delta=1e-6)
+        self.assertAlmostEqual(found["f_by_shape"]["haider_levenspiel"], 1, delta=1e-5)
+        self.assertIn("sphericity 0.81, shape ganser; by haider_levenspiel f = 1", self.ends(DONE, *point).stderr)
+
+    def test_sources_name_the_papers(self):
+        listed = self.ends(DONE, "drag", "--list").stdout
+        for source in ("Ergun 1952; Cello 2009, eq. 3.24", "Wen and Yu 1966; ", "Di Felice 1994; ", "Ganser 1993"):
+            self.assertIn(source, listed)
+        for source in re.findall(r"(?m)^ +(.*Cello 2009.*)$", listed):
+            self.assertRegex(source, r"(1[89]|20)\d\d.*Cello 2009")
 
     def test_colours_only_where_the_terminal_has_them(self):
         def on_terminal(**settings):
