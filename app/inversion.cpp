@@ -66,13 +66,15 @@ core::Json json_of(const std::vector<InversionPoint>& points) {
 }
 
 void print_json(const core::Scene& scene, const std::string& method, const std::vector<InversionPoint>& points,
-                const std::vector<Band>& band, const InversionBeside& beside) {
+                const std::vector<Band>& band, const InversionBeside& beside, std::optional<std::size_t> on_top) {
   core::Json json = {
       {"law", core::law_of(scene, "drag")},
       {"partition", core::text_or_null(scene.effects.contains("partition") ? core::law_of(scene, "partition") : "")},
       {"velocity_m_s", nullptr},
       {"voidage", nullptr}};
   if (!points.empty()) json.update(json_of(points).back());
+  json["on_top"] = nullptr;
+  if (on_top) json["on_top"] = {{"below", scene.species[*on_top].name}, {"above", scene.species[1 - *on_top].name}};
   json["roots"] = json_of(points);
   json["method"] = method;
   core::Json& bands = json["bands"] = core::Json::array();
@@ -281,6 +283,14 @@ std::string reason_of(const core::Scene& scene) {
       larger.name, larger.density > smaller.density ? "denser" : "as dense", smaller.name);
 }
 
+/// --law replaces the mean law alone.
+void tell_of_the_partition(const InversionOptions& options, const core::Scene& scene) {
+  if (options.law.empty() || !options.partition.empty() || !scene.effects.contains("partition")) return;
+  core::print(stderr,
+              "--law {} is shared among the species by partition = \"{}\" of the case; --partition none: by itself\n",
+              options.law, core::law_of(scene, "partition"));
+}
+
 void run_without_a_run(const InversionOptions& options) {
   const core::Scene scene = read_chosen_case(options.case_path, options.overrides, {});
   if (options.method == "all") {
@@ -292,18 +302,28 @@ void run_without_a_run(const InversionOptions& options) {
   if (named == scene.effects.end()) throw core::CaseError("inversion needs a drag law: [effects] drag = ..., or --law");
   const closures::DragLaw law = relevance::drag_law_of(scene);
   const std::string name = relevance::drag_name_of(scene);
+  tell_of_the_partition(options, scene);
   if (options.composition) return print_composition(scene, law, options);
   const auto points = inversion_points(binary_bed(scene), law, options.method);
   const std::vector<Band> band =
       points.empty() ? std::vector<Band>{} : bands(scene, law, options.method, points.back().voidage);
   const InversionBeside beside = inversion_beside(scene, law);
-  if (options.json) return print_json(scene, options.method, points, band, beside);
+  const auto top_below = [&](const InversionPoint& point) {
+    return options.method == "force_balance" ? on_top_below(binary_bed(scene), law, point) : std::nullopt;
+  };
+  if (options.json)
+    return print_json(scene, options.method, points, band, beside,
+                      points.empty() ? std::nullopt : top_below(points.back()));
   if (points.empty())
     core::print("no inversion point between voidage 0.2 and 1 by {} with {}{}\n", options.method, name,
                 reason_of(scene));
-  for (const InversionPoint& p : points)
+  for (const InversionPoint& p : points) {
     core::print("inversion at {:.2f} mm/s, voidage {:.4f} ({}, {})\n", 1e3 * p.velocity, p.voidage, options.method,
                 name);
+    if (const auto top = top_below(p))
+      core::print("  at lower velocities {} is on top, at higher ones {}\n", scene.species[*top].name,
+                  scene.species[1 - *top].name);
+  }
   if (law.partition && !points.empty()) print_deviation(binary_bed(scene), law, points.back());
   for (const Band& b : band) core::print("  {}: {:.2f} to {:.2f} mm/s\n", b.input, 1e3 * b.low, 1e3 * b.high);
   core::print("{}", lines_of(beside));

@@ -4,6 +4,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "relevance/drag_law.hpp"
+
 namespace polybed::app {
 
 namespace {
@@ -32,11 +34,14 @@ InversionBeside inversion_beside(const core::Scene& scene, const closures::DragL
   InversionBeside beside;
   beside.measured = scene.inversion.measured;
   beside.simulated = scene.inversion.simulated;
-  const auto densities = last(inversion_points(bed, law, "bulk_density"));
-  const auto balance = last(inversion_points(bed, law, "force_balance"));
-  if (densities && balance) {
-    beside.mixed = {*densities, *balance};
-    if (densities->velocity > balance->velocity) std::swap((*beside.mixed)[0], (*beside.mixed)[1]);
+  beside.densities = last(inversion_points(bed, law, "bulk_density"));
+  beside.balance = last(inversion_points(bed, law, "force_balance"));
+  if (beside.densities && beside.balance && beside.densities->velocity <= beside.balance->velocity)
+    beside.mixed = {*beside.densities, *beside.balance};
+  for (const std::string& shape : relevance::other_shapes(scene)) {
+    core::Scene other = scene;
+    other.effects["shape"] = shape;
+    beside.shapes[shape] = last(inversion_points(bed, relevance::drag_law_of(other), "force_balance"));
   }
   return beside;
 }
@@ -45,6 +50,10 @@ core::Json json_of(const InversionBeside& beside) {
   core::Json json;
   json["mixed_interval_m_s"] = nullptr;
   if (beside.mixed) json["mixed_interval_m_s"] = {(*beside.mixed)[0].velocity, (*beside.mixed)[1].velocity};
+  json["equal_bulk_density_m_s"] = beside.densities ? core::Json(beside.densities->velocity) : core::Json();
+  json["by_shapes"] = core::Json::object();
+  for (const auto& [shape, point] : beside.shapes)
+    json["by_shapes"][shape] = point ? core::Json(point->velocity) : core::Json();
   json["measured_m_s"] = list_or_null(beside.measured);
   json["simulated_m_s"] = list_or_null(beside.simulated);
   return json;
@@ -57,6 +66,14 @@ std::string lines_of(const InversionBeside& beside) {
         "  mixed between equal bulk densities of the pure beds and the force balance: {:.2f} to {:.2f} "
         "mm/s\n",
         1e3 * (*beside.mixed)[0].velocity, 1e3 * (*beside.mixed)[1].velocity);
+  else if (beside.densities && beside.balance)
+    text += fmt::format(
+        "  no mixed interval: the pure beds have equal bulk densities at {:.2f} mm/s, above the force balance, "
+        "{:.2f}\n",
+        1e3 * beside.densities->velocity, 1e3 * beside.balance->velocity);
+  for (const auto& [shape, point] : beside.shapes)
+    text += fmt::format("  by shape = \"{}\": {}\n", shape,
+                        point ? fmt::format("{:.2f} mm/s", 1e3 * point->velocity) : "no inversion point");
   return text + line_of("measured", beside.measured) + line_of("simulated by others", beside.simulated);
 }
 

@@ -253,4 +253,13 @@ std::vector<InversionPoint> inversion_points(const BinaryBed& bed, const DragLaw
   throw core::CaseError("unknown method '" + method + "'; allowed are" + names);
 }
 
+std::optional<std::size_t> on_top_below(const BinaryBed& bed, const DragLaw& law, const InversionPoint& point) {
+  constexpr double less = 0.999;  // of the voidage: on one side of the point
+  const auto u1 = resting_velocity(bed, law, less * point.voidage, 0),
+             u2 = resting_velocity(bed, law, less * point.voidage, 1);
+  if (!u1 || !u2) return std::nullopt;
+  const bool lower = std::min(*u1, *u2) < point.velocity;  // else denser mixtures rest at higher velocities
+  return (*u1 < *u2) == lower ? 0 : 1;
+}
+
 }  // namespace polybed::multiscale

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -48,5 +49,10 @@ struct InversionMethod {
 ///
 [[nodiscard]] std::vector<InversionPoint> inversion_points(const BinaryBed& bed, const closures::DragLaw& law,
                                                            const std::string& method);
+
+/// Species on top at velocities just below a point of the force balance: the one that rests in the mixture at a lower
+/// velocity than the other. Above the point the other one is on top. Empty if a species floats there.
+[[nodiscard]] std::optional<std::size_t> on_top_below(const BinaryBed& bed, const closures::DragLaw& law,
+                                                      const InversionPoint& point);
 
 }  // namespace polybed::multiscale

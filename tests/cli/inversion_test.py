@@ -137,6 +137,17 @@ class WithoutARun(Scratch):
         self.assertAlmostEqual(1e3 * low, 28.2, delta=0.05)  # as printed
         self.assertEqual((found["measured_m_s"], found["simulated_m_s"]), ([0.03], [0.025, 0.035]))
         text = self.ends(DONE, "inversion", self.SYSTEM_B).stdout
+        self.assertEqual(found["on_top"], {"below": "coarse", "above": "fine"})  # the coarse particles are the lighter ones
+        self.assertIn("at lower velocities coarse is on top, at higher ones fine", text)
+        sand = ["--set", "species.coarse.sphericity=0.9", "--set"]
+        ganser, other = (strict_json(self.ends(DONE, "inversion", self.SYSTEM_B, *sand, f"effects.shape={shape}", "--json").stdout)
+                         for shape in ("ganser", "haider_levenspiel"))
+        self.assertEqual(ganser["by_shapes"], {"haider_levenspiel": other["velocity_m_s"]})
+        self.assertNotEqual(ganser["velocity_m_s"], other["velocity_m_s"])
+        # Denser coarse particles turn the two criteria around: between them neither says mixed.
+        turned = ["--set", "species.coarse.density=1200"]
+        self.assertIsNone(strict_json(self.ends(DONE, "inversion", self.SYSTEM_B, *turned, "--json").stdout)["mixed_interval_m_s"])
+        self.assertIn("no mixed interval", self.ends(DONE, "inversion", self.SYSTEM_B, *turned).stdout)
         for line in ("28.22 to 34.27 mm/s", "measured: 30.00 mm/s", "simulated by others: 25.00 to 35.00 mm/s"):
             self.assertIn(line, text)
         self.assertIn("inversion.measured", self.ends(WRONG_CASE, "inversion", self.SYSTEM_B, "--set",

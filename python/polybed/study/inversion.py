@@ -143,7 +143,7 @@ def make(request):
         scans = [scan_of(request, case.table, model) for model in models]
         path = directory / "inversion.json"
         text = write_record(path, record_of(request, case, scans))
-        answer(text if request["json"] else f"{report.findings(scans, request['force_balance'], request['beside'])}{path}")
+        answer(text if request["json"] else f"{report.findings(scans, request['force_balance'], request['beside'], case.species)}{path}")
         if request["picture"]:
             draw(path, "picture", not speaks(request))
     return DONE

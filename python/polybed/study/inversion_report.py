@@ -5,7 +5,7 @@ from dataclasses import asdict, dataclass, field
 
 from polybed.study.inversion_search import Found
 
-AT_HEIGHT = 0.98  # interface over bed height of a mixed bed: within one of the 50 slices that the interface is found on
+AT_HEIGHT = 0.98  # interface over bed height of a mixed bed
 GOAL = 0.05  # relative difference of the models' velocities
 
 
@@ -56,14 +56,20 @@ class ScanOfModel:
         return plain
 
 
-def mixed_interval(scan):
-    """Between which velocities a scan's beds are mixed: their interface, x* = 5 %, is at their height. Of the least and the greatest such
-    velocity, m/s: "least_m_s" and "greatest_m_s", and the nearest that are not mixed, "below_m_s" and "above_m_s", None where there is
-    none. None if no bed is mixed. A velocity with several runs counts as mixed if all of them are."""
+def mixed_velocities(scan):
+    """By velocity, m/s, whether the bed is mixed: with several runs, in all of them."""
     mixed = {}
     for step, run in zip(scan.found.steps, scan.runs, strict=True):
         at_height = run.interface_over_height is not None and run.interface_over_height >= AT_HEIGHT
         mixed[step.velocity] = mixed.get(step.velocity, True) and at_height
+    return mixed
+
+
+def mixed_interval(scan):
+    """Between which velocities a scan's beds are mixed: their interface, x* = 5 %, is at their height. Of the least and the greatest such
+    velocity, m/s: "least_m_s" and "greatest_m_s", and the nearest that are not mixed, "below_m_s" and "above_m_s", None where there is
+    none. None if no bed is mixed."""
+    mixed = mixed_velocities(scan)
     inside = [velocity for velocity, is_mixed in mixed.items() if is_mixed]
     if not inside:
         return None
@@ -112,7 +118,7 @@ def line(name, velocity, source, run):
     return f"{name:5} {1e3 * velocity:8.2f} {begun:>10} {mean:>20} {height:>16} {run.cpu_s:8.3g}{marks}"
 
 
-def finding(scan):
+def finding(scan, species):
     found = scan.found
     low, high = 1e3 * found.low, 1e3 * found.high
     if found.velocity is None:
@@ -120,8 +126,9 @@ def finding(scan):
     some, runs = drifting(scan)
     drift = (f"{scan.model}: undecided: {some} of {runs} runs in the bracket still drift, and +- covers their noise alone; use a longer --until\n"
              if some else "")
+    below, above = species if found.slope > 0 else reversed(species)  # the centre of the second less that of the first grows
     return (f"{scan.model}: inversion at {1e3 * found.velocity:.4g} +-{1e3 * found.error:.1g} mm/s, between {low:.4g} and {high:.4g} "
-            f"(ended by {found.outcome}), slope {found.slope:.3g} s/m\n{drift}")
+            f"(ended by {found.outcome}), slope {found.slope:.3g} s/m; {below} on top below it, {above} above\n{drift}")
 
 
 def band_line(scan):
@@ -143,23 +150,32 @@ def mixed_line(scan):
             f"{1e3 * mixed['greatest_m_s']:.4g}{ends[1]} mm/s\n")
 
 
-def beside_lines(beside):
+def contradicted(scan, interval):
+    """A line for the runs of a scan that are not mixed where the force balance says so."""
+    others = [f"{1e3 * velocity:.4g}" for velocity, mixed in sorted(mixed_velocities(scan).items())
+              if interval and interval[0] <= velocity <= interval[1] and not mixed]
+    return f"{scan.model}: contradicts it: not mixed at {', '.join(others)} mm/s\n" if others else ""
+
+
+def beside_lines(beside, scans):
     """What stands beside the scans: from the force balance and from others. beside: as `polybed inversion --json` has it, or None"""
     def between(what, values):
         return f"{what}: {' to '.join(f'{1e3 * value:.4g}' for value in values)} mm/s\n" if values else ""
 
     if not beside:
         return ""
-    return (between("mixed by force balance", beside["mixed_interval_m_s"])
+    interval, densities = beside["mixed_interval_m_s"], beside.get("equal_bulk_density_m_s")
+    reverse = "" if interval or not densities else between("no mixed interval by force balance: equal bulk densities lie above it, at", [densities])
+    return (between("mixed by force balance", interval) + reverse + "".join(contradicted(scan, interval) for scan in scans)
             + between("measured", beside["measured_m_s"]) + between("simulated by others", beside["simulated_m_s"]))
 
 
-def findings(scans, balance, beside=None):
+def findings(scans, balance, beside=None, species=("species 1", "species 2")):
     """What the scans have found, as lines. balance: the point by force balance, or None"""
-    text = "\n" + "".join(finding(scan) + band_line(scan) + mixed_line(scan) for scan in scans)
+    text = "\n" + "".join(finding(scan, species) + band_line(scan) + mixed_line(scan) for scan in scans)
     if balance:
         text += f"force balance: {1e3 * balance['velocity_m_s']:.4g} mm/s\n"
-    text += beside_lines(beside)
+    text += beside_lines(beside, scans)
     agreement = agreement_of(scans)
     if agreement:
         text += (f"tfm/dem - 1: {agreement['value']:.3f} +-{agreement['error']:.1g}, goal {agreement['goal']:.3f}: "

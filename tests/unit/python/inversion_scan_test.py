@@ -136,6 +136,18 @@ class Report(unittest.TestCase):
         self.assertIn("undecided, runs still drift", report.findings(both, None))
         self.assertIsNone(report.agreement_of(both)["reached"])
 
+    def test_runs_contradict_an_interval_of_the_force_balance(self):
+        found = scan(30.0, 0.1, 28, 31)
+        found.found.steps = [Step(u, None, Mean(0, 1)) for u in (25, 28, 31)]
+        found.runs = [report.RunOfScan(0, 0, 1, 0, 0, 1, 1, "", "", [], interface) for interface in (0.4, 0.5, 1.0)]
+        others = {"mixed_interval_m_s": [27, 32], "equal_bulk_density_m_s": 27, "measured_m_s": None, "simulated_m_s": None}
+        told = report.findings([found], None, others, ["fine", "coarse"])
+        self.assertIn("tfm: contradicts it: not mixed at 2.8e+04 mm/s\n", told)
+        on_top = ("fine", "coarse") if found.found.slope > 0 else ("coarse", "fine")
+        self.assertIn("; {} on top below it, {} above\n".format(*on_top), told)
+        reverse = report.findings([], None, others | {"mixed_interval_m_s": None, "equal_bulk_density_m_s": 0.035})
+        self.assertIn("no mixed interval by force balance: equal bulk densities lie above it, at: 35 mm/s", reverse)
+
     def test_what_others_found_stands_beside(self):
         told = report.findings([], None, {"mixed_interval_m_s": [0.0282, 0.0343], "measured_m_s": [0.03], "simulated_m_s": None})
         for line in ("mixed by force balance: 28.2 to 34.3 mm/s", "measured: 30 mm/s"):
