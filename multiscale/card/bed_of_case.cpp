@@ -13,6 +13,7 @@
 #include "closures/sphere.hpp"
 #include "closures/terminal_velocity.hpp"
 #include "core/case/layers.hpp"
+#include "measures/table.hpp"
 #include "relevance/advised_drag.hpp"
 #include "relevance/drag_law.hpp"
 #include "relevance/fluid_properties.hpp"
@@ -217,9 +218,45 @@ std::optional<ExpectedDischarge> expected_discharge(const core::Scene& scene, do
                            mass, width / mean, !scene.column.is_tapered()};
 }
 
-/// Everything except the velocities of an expansion.
+/// Masses of the species at the start, kg; empty if the case does not give them.
+std::vector<std::pair<std::string, double>> masses_of(const core::Scene& scene) {
+  const std::vector<double> share = shares_of(scene);
+  const core::Bed& start = scene.bed;
+  const bool counted = start.particles.size() == scene.species.size();
+  const double solids = scene.column.even_height(start.static_height) * start.solids_fraction;
+  std::vector<std::pair<std::string, double>> masses;
+  if (share.empty() || !(counted || solids > 0)) return masses;
+  std::vector<std::string> names;
+  for (const core::Species& species : scene.species) names.push_back(species.name);
+  for (const measures::Kind& kind : measures::named_species(names)) {
+    double mass = 0;
+    for (const std::size_t j : kind.members)
+      mass += scene.species[j].density *
+              (counted ? double(start.particles[j]) * closures::sphere_volume(scene.species[j].diameter / 2)
+                       : share[j] * solids * scene.column.cross_section());
+    masses.emplace_back(kind.name, mass);
+  }
+  return masses;
+}
+
+/// The bounds of the fluidisation of several species, and its dependence on the packing.
+void add_spread(const Balance& balance, const CarriedBed& mixture, BedOfCase& bed) {
+  constexpr double other = 0.025, least = 1.05;  // of the settled solids fraction; ratio of velocities
+  const auto by = [](const SpeciesInFluid& one) { return one.minimum_fluidisation.value_or(0); };
+  const auto [first, last] = std::minmax_element(bed.species.begin(), bed.species.end(),
+                                                 [&](const auto& a, const auto& b) { return by(a) < by(b); });
+  if (by(*first) > 0 && by(*last) > least * by(*first)) bed.first = *first, bed.last = *last;
+  if (!balance.known()) return;
+  for (const double solids : {1 - balance.packed - other, 1 - balance.packed + other})
+    if (const auto velocity = balance.minimum_fluidisation(mixture, 1 - solids); velocity && solids > 0)
+      bed.by_packing.emplace_back(solids, *velocity);
+}
+
+/// Everything except the velocities of an expansion and the other formulas of the shape.
 BedOfCase bed_without_expansion(const core::Scene& scene) {
   BedOfCase bed;
+  bed.masses = masses_of(scene);
+  if (scene.places.has("inlet.flow_rate")) bed.area = scene.column.cross_section();
   const double gravity = scene.column.gravity * std::max(0.0, -scene.column.down[1]);
   if (!scene.fluid.present()) {
     bed.discharge = expected_discharge(scene, gravity);
@@ -247,6 +284,7 @@ BedOfCase bed_without_expansion(const core::Scene& scene) {
   const bool gas = fluid.density < relevance::lightest_liquid;
   const CarriedBed mixture = mixture_of(scene, share, fluid, gravity);
   bed.own = {balance.name, balance.minimum_fluidisation(mixture), {}};
+  add_spread(balance, mixture, bed);
   const bool flows = !scene.column.closed && !(scene.inlet.superficial_velocity.empty() && scene.jets.empty());
   if (flows) bed.velocity = velocity_at_end(scene);
   const bool any = scene.bed.static_height > 0 || !scene.bed.particles.empty();
@@ -350,6 +388,12 @@ double settled_height(const core::Scene& scene) {
 BedOfCase bed_of_case(const core::Scene& scene) {
   BedOfCase bed = bed_without_expansion(scene);
   add_expansion(scene, bed);
+  for (const std::string& shape : relevance::other_shapes(scene)) {
+    core::Scene other = scene;
+    other.effects["shape"] = shape;
+    const BedOfCase found = bed_without_expansion(other);
+    bed.shapes.push_back({shape, found.own.minimum_fluidisation, found.own.height});
+  }
   return bed;
 }
 

@@ -54,11 +54,17 @@ struct ExpansionAt {
 
 struct BedOfCase {
   std::vector<SpeciesInFluid> species;
-  ByLaw own;                                   ///< from the law of the case
-  std::vector<ByLaw> others;                   ///< from laws derived from such beds
-  std::optional<double> velocity;              ///< superficial, mean over the bottom at the end of the run, m/s
-  Fluidisation state{};                        ///< predicted
-  std::vector<std::string> leaving;            ///< species that the fluid lifts out of a bed of the others
+  ByLaw own;                  ///< from the law of the case
+  std::vector<ByLaw> others;  ///< from laws derived from such beds
+  std::vector<ByLaw> shapes;  ///< from the law of the case with each other formula of the shape
+  /// The species that fluidise first and last by themselves, with at least 5 % between them.
+  std::optional<SpeciesInFluid> first, last;
+  std::vector<std::pair<double, double>> by_packing;   ///< u_mf of the mixture at other settled solids fractions, m/s
+  std::vector<std::pair<std::string, double>> masses;  ///< kg at the start; size classes count as one
+  double area = 0;                                     ///< m2, of the inlet of a case that gives its flow rate
+  std::optional<double> velocity;                      ///< superficial, mean over the bottom at the end of the run, m/s
+  Fluidisation state{};                                ///< predicted
+  std::vector<std::string> leaving;                    ///< species that the fluid lifts out of a bed of the others
   std::vector<ExpansionAt> expansion;          ///< of a bed in a liquid, as far as the height of the column allows
   std::optional<double> rising_time;           ///< s, least time for the top of a packed bed in a liquid to rise
   std::optional<ExpectedDischarge> discharge;  ///< of dry particles with dem.opening

@@ -37,10 +37,9 @@ double particles_of(const core::Species& species, double mass) {
 }
 
 /// Inventory of all solids: mass in the column and particles at the first row, mass at the last, mean height at the
-/// end; and the mean height of each species.
+/// end.
 struct Inventory {
   double first = 0, particles = 0, last = 0, height = 0;
-  std::vector<std::optional<TimeMean>> centre;  ///< of each species
 };
 
 Inventory inventory_of(const core::Scene& scene, const Window& window) {
@@ -48,7 +47,6 @@ Inventory inventory_of(const core::Scene& scene, const Window& window) {
   double moment = 0;
   for (const core::Species& species : scene.species) {
     const std::optional<TimeMean> centre = window.mean("centre_" + species.name + "_m");
-    all.centre.push_back(centre);
     const Series* mass = window.history.find("mass_" + species.name + "_kg");
     if (mass == nullptr) continue;
     all.first += mass->front();
@@ -82,24 +80,28 @@ bool is_pressed_down(const core::Scene& scene, const Inventory& all, const BedOf
   return bed.drop && bed.drop->mean > more && all.height < 0.5 * scene.column.size[1];
 }
 
-/// Whether a species would be below another one if each found its place by weight.
-bool belongs_below(const core::Species& one, const core::Species& other) {
-  return one.density != other.density ? one.density > other.density : one.diameter > other.diameter;
+/// Whether a species would be below another one if each found its place by weight. Of several sizes the middle counts.
+bool belongs_below(const core::Scene& scene, const measures::Kind& one, const measures::Kind& other) {
+  const core::Species &a = scene.species[one.members[one.members.size() / 2]],
+                      &b = scene.species[other.members[other.members.size() / 2]];
+  return a.density != b.density ? a.density > b.density : a.diameter > b.diameter;
 }
 
-Layers layers_of(const core::Scene& scene, const Inventory& all, const BedOfRun& bed) {
+Layers layers_of(const core::Scene& scene, const std::vector<measures::Kind>& kinds, const Window& window,
+                 const BedOfRun& bed) {
   if (!bed.height || !(bed.height->mean > 0)) return Layers::unknown;
-  const core::Species *lowest = nullptr, *highest = nullptr;
+  const measures::Kind *lowest = nullptr, *highest = nullptr;
   double low = 0, high = 0;
-  for (std::size_t j = 0; j < all.centre.size(); ++j) {
-    if (!all.centre[j]) continue;
-    const double centre = all.centre[j]->mean;
-    if (lowest == nullptr || centre < low) low = centre, lowest = &scene.species[j];
-    if (highest == nullptr || centre > high) high = centre, highest = &scene.species[j];
+  for (const measures::Kind& kind : kinds) {
+    const std::optional<TimeMean> mean = window.mean("centre_" + kind.name + "_m");
+    if (kind.is_class || !mean) continue;
+    const double centre = mean->mean;
+    if (lowest == nullptr || centre < low) low = centre, lowest = &kind;
+    if (highest == nullptr || centre > high) high = centre, highest = &kind;
   }
   if (lowest == highest) return Layers::unknown;
   if (high - low < 0.1 * bed.height->mean) return Layers::mixed;
-  return belongs_below(*lowest, *highest) ? Layers::layered : Layers::inverted;
+  return belongs_below(scene, *lowest, *highest) ? Layers::layered : Layers::inverted;
 }
 
 /// Computes the outflow, also as a share of the possible outflow.
@@ -197,14 +199,17 @@ BedOfRun bed_of_run(const core::Scene& scene, const core::History& history) {
   bed.dense = window.mean("dense_height_m");
   bed.pressure = window.mean("pressure_drop_Pa");
   bed.drop = window.mean(measures::drop_over_weight(history));
-  if (scene.species.size() > 1)
-    if (const std::optional<TimeMean> mixing = window.mean("mixing")) bed.mixing = mixing->mean;
-  bed.hangs = is_light(window) && !is_pressed_down(scene, all, bed);
-  bed.state = state_of(scene, window, all, bed);
-  bed.layers = layers_of(scene, all, bed);
   std::vector<std::string> names;
   for (const core::Species& species : scene.species) names.push_back(species.name);
   const std::vector<measures::Kind> kinds = measures::kinds_of(names);
+  if (const std::optional<TimeMean> mixing = window.mean("mixing")) bed.mixing = mixing->mean;
+  bed.hangs = is_light(window) && !is_pressed_down(scene, all, bed);
+  bed.state = state_of(scene, window, all, bed);
+  bed.layers = layers_of(scene, kinds, window, bed);
+  bed.cell = scene.fluid.present() ? scene.column.size[1] / scene.column.cells[1] : 0;
+  for (const measures::Kind& kind : measures::named_species(names))
+    if (const std::optional<TimeMean> mass = window.mean("mass_" + kind.name + "_kg"))
+      bed.masses.emplace_back(kind.name, mass->mean);
   find_outflow(kinds, window, bed);
   if (!bed.hangs) find_tops(kinds, window, bed);
   if (bed.hangs) bed.height.reset(), bed.dense.reset();  // its top is the column's

@@ -29,9 +29,11 @@ struct BedOfRun {
   /// Heights, m, that species reach, in the order of the case; size classes count as one. Species of which 95 % have
   /// left the column are missing.
   std::vector<std::pair<std::string, measures::TimeMean>> tops;
-  std::optional<measures::TimeMean> pressure;  ///< pressure drop, Pa
-  std::optional<measures::TimeMean> drop;      ///< the same over the buoyant weight
-  std::optional<double> mixing;                ///< 1 mixed, 0 separated
+  std::optional<measures::TimeMean> pressure;          ///< pressure drop, Pa
+  std::optional<measures::TimeMean> drop;              ///< the same over the buoyant weight
+  std::optional<double> mixing;                        ///< 1 mixed, 0 separated
+  double cell = 0;                                     ///< m, height of a cell
+  std::vector<std::pair<std::string, double>> masses;  ///< kg in the column; size classes count as one
   Fluidisation state{};
   Layers layers{};
   std::map<std::string, double> out;       ///< kg since the start, by kind, for a scene with openings

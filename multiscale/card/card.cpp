@@ -10,6 +10,7 @@
 
 #include "closures/hopper_discharge.hpp"
 #include "core/progress.hpp"
+#include "multiscale/card/velocity_text.hpp"
 
 namespace polybed::multiscale {
 
@@ -62,26 +63,6 @@ bool matters(const LeftOut& left_out) { return left_out.sum > left_out.promise; 
 
 // ---- words
 
-/// Factor and prefix for a quantity.
-std::pair<double, const char*> prefix_of(double value) {
-  const double size = std::abs(value);
-  if (size >= 1 || size == 0) return {1, ""};
-  return size >= 1e-3 ? std::pair(1e3, "m") : std::pair(1e6, "µ");
-}
-
-/// A quantity with the prefix that gives it one to three digits before the point.
-std::string with_prefix(double value, const char* unit) {
-  const auto [factor, prefix] = prefix_of(value);
-  return fmt::format("{:.3g} {}{}", factor * value, prefix, unit);
-}
-
-/// A range, with the prefix for the greater value; one value if both read the same.
-std::string range_text(double low, double high, const char* unit) {
-  const auto [factor, prefix] = prefix_of(high);
-  const std::string least = fmt::format("{:.3g}", factor * low), greatest = fmt::format("{:.3g}", factor * high);
-  return fmt::format("{}{} {}{}", least == greatest ? "" : least + " to ", greatest, prefix, unit);
-}
-
 std::string one_digit(double value) {
   return value < 9.5 ? fmt::format("{:.1g}", value) : fmt::format("{:.0f}", value);
 }
@@ -93,83 +74,14 @@ std::string words_of(Fluidisation state) {
   return words;
 }
 
-std::string each(const std::vector<std::string>& parts) { return fmt::format("{}", fmt::join(parts, ", ")); }
-
-constexpr std::size_t most_species = 4;  // that a line lists by name
-
-std::string of_species(const BedOfCase& bed, std::optional<double> SpeciesInFluid::*velocity) {
-  std::vector<SpeciesInFluid> known;
-  std::copy_if(bed.species.begin(), bed.species.end(), std::back_inserter(known),
-               [&](const SpeciesInFluid& species) { return (species.*velocity).has_value(); });
-  const bool range = known.size() > most_species;
-  if (range) {
-    const auto [least, greatest] = std::minmax_element(
-        known.begin(), known.end(), [&](const auto& a, const auto& b) { return *(a.*velocity) < *(b.*velocity); });
-    known = {*least, *greatest};
-  }
-  std::vector<std::string> parts;
-  for (const SpeciesInFluid& species : known)
-    parts.push_back(species.name + " " + with_prefix(*(species.*velocity), "m/s"));
-  return range ? parts.front() + " to " + parts.back() : each(parts);
-}
-
-/// The range of the laws derived from such beds, with their names; empty without any.
-/// \param most  greatest number: the column's height, above which a law gives no number
-std::string by_others(const BedOfCase& bed, std::optional<double> ByLaw::*number, const char* unit,
-                      std::optional<double> most) {
-  std::vector<std::string> names;
-  double low = HUGE_VAL, high = 0;
-  for (const ByLaw& one : bed.others) {
-    const std::optional<double> value = one.*number ? one.*number : most;
-    if (!value) continue;
-    names.push_back(one.law);
-    low = std::min(low, *value);
-    high = std::max(high, *value);
-  }
-  if (names.empty()) return "";
-  std::string range = range_text(low, high, unit);
-  if (most && high >= *most)
-    range = (low < *most ? with_prefix(low, unit) + " " : std::string()) + "up to the top of the column";
-  return fmt::format("{} by laws of such beds: {}", range, each(names));
-}
-
-std::string in_kilograms(double mass) { return with_prefix(1e3 * mass, "g"); }
-
-/// Two digits; more if two would show no difference or end before the point.
-std::string times_text(double ratio) {
-  if (ratio >= 100) return fmt::format("{:.0f}", ratio);
-  return std::abs(ratio - 1) < 0.05 ? fmt::format("{:.3g}", ratio) : fmt::format("{:.2g}", ratio);
-}
-
-/// Minimum fluidisation, terminal velocities and, in a gas, Geldart's classes.
-void add_velocities(const BedOfCase& bed, std::vector<std::string>& lines) {
-  if (bed.species.empty()) return;
-  if (bed.own.minimum_fluidisation) {
-    std::string text =
-        bed.species.size() > 1 ? of_species(bed, &SpeciesInFluid::minimum_fluidisation) + ", mixture " : std::string();
-    text += with_prefix(*bed.own.minimum_fluidisation, "m/s") + " by " +
-            (bed.own.law.empty() ? "Wen and Yu's correlation" : bed.own.law);
-    if (const auto ratio = bed.velocity_ratio())
-      text += fmt::format("; u = {} is {} times that", with_prefix(*bed.velocity, "m/s"), times_text(*ratio));
-    lines.push_back(card_line("fluidises at", text));
-  }
-  for (const auto& [heading, velocity] :
-       {std::pair{"falls at", &SpeciesInFluid::terminal}, std::pair{"rises at", &SpeciesInFluid::rising}})
-    if (const std::string text = of_species(bed, velocity); !text.empty()) lines.push_back(card_line(heading, text));
-  std::vector<std::string> classes;
-  for (const SpeciesInFluid& species : bed.species)
-    if (!species.geldart.empty())
-      classes.push_back(bed.species.size() > 1 ? species.name + " " + species.geldart : species.geldart);
-  if (!classes.empty()) lines.push_back(card_line("Geldart class", each(classes)));
-}
+constexpr std::size_t most_species = 4;  // whose tops a line lists
 
 /// Predictions for an opening in the bottom.
 void add_discharge(const ExpectedDischarge& out, std::vector<std::string>& lines) {
   const std::string width = fmt::format("the opening is {:.2g} particle diameters wide", out.diameters);
   if (!(out.rate > 0)) return lines.push_back(card_line("expect", "no discharge: " + width));
-  lines.push_back(
-      card_line("expect", fmt::format("discharge of about {}/s; {} would be out after {:.2g} s", in_kilograms(out.rate),
-                                      in_kilograms(out.mass), out.mass / out.rate)));
+  lines.push_back(card_line("expect", fmt::format("discharge of about {}/s; {} would be out after {:.2g} s",
+                                                  mass_text(out.rate), mass_text(out.mass), out.mass / out.rate)));
   lines.push_back(card_line("", std::string("estimate by Beverloo's law, good to 30 %") +
                                     (out.flat ? "; a flat bottom keeps what lies in its corners" : "")));
   if (out.diameters < closures::least_hopper_opening)
@@ -181,7 +93,7 @@ std::string out_text(const BedOfRun& bed) {
   for (const auto& [name, mass] : bed.out) {
     if (bed.out.contains(name.substr(0, name.rfind('.'))) && name.find('.') != std::string::npos) continue;  // a class
     const auto share = bed.recovery.find(name);
-    parts.push_back(name + " " + in_kilograms(mass) +
+    parts.push_back(name + " " + mass_text(mass) +
                     (share == bed.recovery.end() ? "" : fmt::format(" ({:.3g} %)", 100 * share->second)));
   }
   return each(parts);
@@ -210,7 +122,10 @@ std::string bed_text(const BedOfRun& bed) {
   for (const std::string& word : {words_of(bed.state), name_of(bed.layers)})
     if (!word.empty()) parts.push_back(word);
   if (bed.hangs && !parts.empty()) parts.emplace_back("hanging from the top");
-  if (bed.height && !is_carried(bed.state)) parts.push_back(height_text(bed));
+  if (bed.height && !is_carried(bed.state)) {
+    parts.push_back(height_text(bed));
+    if (bed.cell > 0) parts.push_back("on cells of " + with_prefix(bed.cell, "m"));
+  }
   if (bed.drop && bed.state != Fluidisation::unknown)
     parts.push_back("pressure drop " + (bed.pressure ? mean_text(*bed.pressure, 1, " Pa, ") : "") +
                     mean_text(*bed.drop, 1, " of the weight"));
@@ -277,6 +192,7 @@ void write_card(core::Json& json, const core::Scene& scene, const Card& card) {
       {"pressure_drop_Pa", json_of(seen.pressure)},
       {"pressure_drop_over_weight", json_of(seen.drop)},
       {"mixing", core::or_null(seen.mixing)},
+      {"mass_kg", json_or_null({seen.masses.begin(), seen.masses.end()})},
       {"out_kg", json_or_null(seen.out)},
       {"recovery", json_or_null(seen.recovery)},
       {"discharge_kg_s", core::or_null(seen.discharge)},
@@ -291,10 +207,16 @@ void write_card(core::Json& json, const core::Scene& scene, const Card& card) {
 
 void write_expected(core::Json& json, const core::Scene& scene, const BedOfCase& bed) {
   json["expected"] = velocities_of(scene, bed);
-  core::Json laws = core::Json::object();
-  for (const ByLaw& one : bed.others)
-    laws[one.law] = {{"u_mf_m_s", core::or_null(one.minimum_fluidisation)},
-                     {"bed_height_m", core::or_null(one.height)}};
+  const auto by_laws = [](const std::vector<ByLaw>& all) {
+    core::Json laws = core::Json::object();
+    for (const ByLaw& one : all)
+      laws[one.law] = {{"u_mf_m_s", core::or_null(one.minimum_fluidisation)},
+                       {"bed_height_m", core::or_null(one.height)}};
+    return laws;
+  };
+  core::Json packings = core::Json::array();
+  for (const auto& [solids, velocity] : bed.by_packing)
+    packings.push_back({{"solids_fraction", solids}, {"u_mf_m_s", velocity}});
   core::Json expansion = core::Json::array();
   for (const ExpansionAt& one : bed.expansion)
     expansion.push_back({{"share", one.share}, {"least_m_s", one.least}, {"most_m_s", one.most}});
@@ -304,7 +226,10 @@ void write_expected(core::Json& json, const core::Scene& scene, const BedOfCase&
       {"bed_height_m", core::or_null(bed.own.height)},
       {"settled_height_m", settled_height(scene)},
       {"expansion", expansion},
-      {"by_laws_of_beds", laws},
+      {"mass_kg", json_or_null({bed.masses.begin(), bed.masses.end()})},
+      {"u_mf_by_packing", packings},
+      {"by_shapes", by_laws(bed.shapes)},
+      {"by_laws_of_beds", by_laws(bed.others)},
       {"leaving", bed.leaving},
       {"rising_time_s", core::or_null(bed.rising_time)},
       {"validity", core::text_or_null(bed.validity)},
@@ -335,14 +260,12 @@ std::vector<std::string> expectation_lines(const core::Scene& scene, const BedOf
     std::string text;
     for (const ExpansionAt& one : bed.expansion)
       text += fmt::format("{}{:.0f} % at {}", text.empty() ? "" : ", ", 100 * one.share,
-                          range_text(one.least, one.most, "m/s"));
+                          velocities_text(one.least, one.most, bed.area));
     lines.push_back(card_line("expands by", text + " by laws of such beds"));
   }
   if (bed.discharge) add_discharge(*bed.discharge, lines);
-  const std::size_t before = lines.size();
-  add_velocities(bed, lines);
-  const std::string others = by_others(bed, &ByLaw::minimum_fluidisation, "m/s", {});
-  if (!others.empty()) lines.insert(lines.begin() + std::ptrdiff_t(before) + 1, card_line("", others));
+  add_velocities(bed, true, lines);
+  if (!bed.masses.empty()) lines.push_back(card_line("solids", masses_text(bed.masses)));
   if (bed.rising_time) {
     constexpr double window = 0.75;  // part of a run before the last quarter, which its card uses
     std::string text = fmt::format("after {:.2g} s at least: the top rises no faster than u - u_mf", *bed.rising_time);
@@ -358,10 +281,11 @@ std::vector<std::string> result_lines(const Card& card) {
   const BedOfRun& seen = card.seen;
   std::vector<std::string> lines;
   if (const std::string text = bed_text(seen); !text.empty()) lines.push_back(card_line("bed", text));
-  add_velocities(card.expected, lines);
+  add_velocities(card.expected, false, lines);
+  if (!seen.masses.empty()) lines.push_back(card_line("solids", masses_text(seen.masses)));
   if (seen.mixing) lines.push_back(card_line("mixing", fmt::format("{:.2f}  (1 mixed, 0 separated)", *seen.mixing)));
   if (!seen.out.empty()) lines.push_back(card_line("has left", out_text(seen)));
-  if (seen.discharge) lines.push_back(card_line("discharge", in_kilograms(*seen.discharge) + "/s"));
+  if (seen.discharge) lines.push_back(card_line("discharge", mass_text(*seen.discharge) + "/s"));
   if (seen.blocked) lines.push_back(card_line("discharge", "none: nothing leaves any more, and over half remains"));
   if (seen.height || seen.steady) lines.push_back(card_line("steady", steady_text(seen)));
   if (!card.limited_by.empty()) lines.push_back(card_line("step", "limited by " + card.limited_by));

@@ -9,8 +9,8 @@ import program
 from program import CASE, DONE, ROOT, SMALL, Scratch, history, small_bed, strict_json
 
 KEYS = {"u_mf_m_s", "u_over_u_mf", "terminal_m_s", "geldart", "state", "layers", "bed_height_m", "dense_height_m", "tops_m",
-        "pressure_drop_Pa", "pressure_drop_over_weight", "mixing", "out_kg", "recovery", "discharge_kg_s", "steady", "limited_by", "left_out", "time_s", "lines"}
-HEADINGS = ("bed ", "fluidises at ", "falls at ", "mixing ", "steady ", "step ", "left out ", "time ")
+        "pressure_drop_Pa", "pressure_drop_over_weight", "mixing", "mass_kg", "out_kg", "recovery", "discharge_kg_s", "steady", "limited_by", "left_out", "time_s", "lines"}
+HEADINGS = ("bed ", "fluidises at ", "falls at ", "solids ", "mixing ", "steady ", "step ", "left out ", "time ")
 SCREEN = 25  # lines
 TEMPLATES = ROOT / "cases/templates"
 
@@ -35,6 +35,7 @@ class Card(Scratch):
             self.assertEqual(card["time_s"], {"taken": record["cpu_s"], "predicted": record["prediction"]["cpu_s"]})
             self.assertIsNone(card["discharge_kg_s"])
             self.assertIsNone(card["geldart"])
+            self.assertAlmostEqual(card["mass_kg"]["fine"], history(run)["mass_fine_kg"][-1], delta=1e-9)
             self.assertEqual(set(card["tops_m"]), {"fine", "coarse"})
             pressure = card["pressure_drop_Pa"]["value"]
             self.assertRegex(last[0], rf"pressure drop {pressure:.4g}( ± \S+)? Pa, {card['pressure_drop_over_weight']['value']:.4g}( ± \S+)? of the weight$")
@@ -60,7 +61,9 @@ class Card(Scratch):
         """A row of cells that parts into layers: at 30 s it still drifts, at 95 s no longer."""
         run = self.folder / "run"
         keys = ("column.cells=[1,30]", "inlet.superficial_velocity=5 mm/s", "run.until=5", "output.history_every=0.02", "output.every=5")
-        self.ends(DONE, "tfm", CASE, *(word for key in keys for word in ("--set", key)), "--until", "steady", "-o", run, "--quiet", "--no-picture")
+        told = self.ends(DONE, "tfm", CASE, *(word for key in keys for word in ("--set", key)), "--until", "steady", "-o", run, "--no-picture").stderr
+        self.assertRegex(told, r"(?m)^t [\d.]+ s, until steady  bed ")
+        self.assertNotRegex(told, r"(?m)^t .* left")
         record = strict_json((run / "run.json").read_text())
         self.assertEqual(record["state"], "done")
         self.assertIs(record["card"]["steady"], True)
@@ -227,6 +230,20 @@ history_every = "20 ms"
 
 
 class Screen(Scratch):
+    def test_a_layer_of_one_cell_counts_in_the_pressure_drop_and_in_the_layering(self):
+        """Sand of 1.4 % of the volume, in one cell under resin: it is not mixed, its layer ends in that cell, and the drop is the weight."""
+        text = small_bed("4 s")
+        keys = ('column.size=["6 mm", "300 mm"]', "column.depth=6 mm", "column.cells=[1,60]", "species.fine.density=2600",
+                "species.fine.diameter=0.5 mm", "species.coarse.density=1250", "species.coarse.diameter=0.7 mm", "bed.volume_share=[0.014,0.986]",
+                "bed.static_height=150 mm", "bed.solids_fraction=0.6", "bed.start=layered", "inlet.superficial_velocity=5 mm/s",
+                "effects.drag=richardson_zaki")
+        run = self.folder / "run"
+        self.ends(DONE, "tfm", self.write("case.toml", text), *(word for key in keys for word in ("--set", key)), "-o", run, "--quiet", "--no-picture")
+        card, rows = strict_json((run / "run.json").read_text())["card"], history(run)
+        self.assertAlmostEqual(card["pressure_drop_over_weight"]["value"], 1, delta=0.003)  # 0.984 from the pressures alone
+        self.assertLess(card["mixing"], 0.1)
+        self.assertLess(rows["interface_m"][-1], 0.01)
+
     def test_what_is_lighter_than_its_fluid_rises(self):
         """By hand: 2.01 mm, 60 kg/m3 lighter than water, and the same heavier, move at one speed, with Schiller and Naumann's drag."""
         speeds = [re.search(rf"{word} at +fine .*coarse (.*) m*m/s", self.ends(DONE, "check", CASE, "--set", f"fluid.density={density}", "--set",
@@ -259,6 +276,29 @@ class Screen(Scratch):
         for velocity, state in (("1 mm/s", "packed"), ("1 m/s", "carried up")):
             told = self.ends(DONE, "check", CASE, "--set", f"inlet.superficial_velocity={velocity}").stdout
             self.assertRegex(told, f"expect +{state}")
+
+    def test_flows_masses_packings_and_shapes(self):
+        """By hand: 407 l/h over a circle of 60 mm are 40 mm/s; 0.1 m of beads at 0.6 weigh pi 0.03^2 0.1 0.6 2500 = 0.4241 kg."""
+        case = TEMPLATES / "round-liquid-bed/case.toml"
+        text = self.ends(DONE, "check", case).stdout
+        self.assertRegex(text, r"(?m)^fluidises at +[\d.]+ mm/s \([\d.]+ l/h\) by richardson_zaki; u = 40 mm/s \(407 l/h\) is ")
+        self.assertRegex(text, r"(?m)^expands by +10 % at [\d.]+ to [\d.]+ mm/s \([\d.]+ to [\d.]+ l/h\)")
+        self.assertRegex(text, r"(?m)^solids +beads 424 g$")
+        self.assertRegex(text, r"(?m)^ +[\d.]+ mm/s \([\d.]+ l/h\) if settled to 0.575 of solids, [\d.]+ mm/s .* if settled to 0.625 of solids$")
+        self.assertNotIn("shape = ", text)
+        found = strict_json(self.ends(DONE, "check", case, "--json").stdout)["expected"]
+        loose, dense = found["u_mf_by_packing"]
+        self.assertGreater(loose["u_mf_m_s"], found["u_mf_m_s"]["mixture"])
+        self.assertGreater(found["u_mf_m_s"]["mixture"], dense["u_mf_m_s"])
+        dense_case = strict_json(self.ends(DONE, "check", case, "--json", "--set", "bed.solids_fraction=0.625").stdout)["expected"]
+        self.assertAlmostEqual(dense_case["u_mf_m_s"]["mixture"], dense["u_mf_m_s"], delta=1e-9)
+        sand = ["--set", "species.beads.sphericity=0.85", "--set", "effects.shape=ganser"]
+        other = strict_json(self.ends(DONE, "check", case, "--json", *sand, "--set", "effects.shape=haider_levenspiel").stdout)["expected"]
+        shaped = strict_json(self.ends(DONE, "check", case, "--json", *sand).stdout)["expected"]["by_shapes"]["haider_levenspiel"]
+        self.assertEqual(shaped, {"u_mf_m_s": other["u_mf_m_s"]["mixture"], "bed_height_m": other["bed_height_m"]})
+        self.assertRegex(self.ends(DONE, "check", case, *sand).stdout, r'(?m)^ +fluidises at .* high by shape = "haider_levenspiel"$')
+        wide = self.ends(DONE, "check", CASE).stdout
+        self.assertRegex(wide, r"(?m)^ +between [\d.]+ mm/s \(fine alone\) and [\d.]+ mm/s \(coarse alone\); ")
 
     def test_it_says_when_a_bed_can_be_steady(self):
         """The top of a packed bed rises at u - u_mf: from 100 mm at 40 mm/s less the velocity that the card names."""

@@ -1,0 +1,39 @@
+// Velocities, heights and masses of a bed in words, for the lines of a card.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "multiscale/card/bed_of_case.hpp"
+
+namespace polybed::multiscale {
+
+/// A range, with the prefix for the greater value; one value if both read the same.
+[[nodiscard]] std::string range_text(double low, double high, const char* unit);
+
+/// A quantity with the prefix that gives it one to three digits before the point.
+[[nodiscard]] std::string with_prefix(double value, const char* unit);
+
+/// "40 mm/s", or for a case with inlet.flow_rate "40 mm/s (407 l/h)": the flow through its inlet. Likewise a range.
+/// \param area  of the inlet, m2; 0: the case gives a velocity
+[[nodiscard]] std::string velocity_text(double velocity, double area);
+[[nodiscard]] std::string velocities_text(double low, double high, double area);
+
+/// kg or less.
+[[nodiscard]] std::string mass_text(double mass);
+[[nodiscard]] std::string masses_text(const std::vector<std::pair<std::string, double>>& masses);
+
+/// "a, b"
+[[nodiscard]] std::string each(const std::vector<std::string>& parts);
+
+/// The range of the laws derived from such beds, with their names; empty without any.
+/// \param most  greatest number: the column's height, above which a law gives no number
+[[nodiscard]] std::string by_others(const BedOfCase& bed, std::optional<double> ByLaw::*number, const char* unit,
+                                    std::optional<double> most);
+
+/// Minimum fluidisation, terminal velocities and, in a gas, Geldart's classes. \param in_full  also by other laws, at
+/// other packings and by the other formula of the shape
+void add_velocities(const BedOfCase& bed, bool in_full, std::vector<std::string>& lines);
+
+}  // namespace polybed::multiscale
