@@ -117,6 +117,12 @@ class Explain(Scratch):
         self.assertIn("mass", words)
         self.explained(sorted(words))
 
+    def test_every_heading_of_a_card(self):
+        sources = "".join(p.read_text() for folder in ("app", "multiscale/card") for p in sorted((ROOT / folder).glob("*.cpp")))
+        headings = set(re.findall(r'card_line\("([^"]+)"', sources)) | set(re.findall(r'pair\{"(\w+ at)"', sources))
+        self.assertLess({"bed", "rises at", "solids", "to go on"}, headings)
+        self.explained(sorted(headings | {"u_mf", "u", "mixture", "settled", "dense bed"}))
+
     def test_words_as_a_card_has_them(self):
         self.assertEqual(*(self.ends(DONE, "explain", word).stdout for word in ("carried out", "carried_out")))
 
