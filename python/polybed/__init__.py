@@ -15,6 +15,7 @@ importlib.import_module("polybed.cost")
 importlib.import_module("polybed.fit")
 
 with needed(sys.argv[:1] == ["-m"]):  # what Python calls a program that it still looks for
+    from polybed.checks import Check
     from polybed.errors import show_plainly
     from polybed.files import FormatError, ReplacedError
     from polybed.particles import Particles
@@ -26,5 +27,16 @@ with needed(sys.argv[:1] == ["-m"]):  # what Python calls a program that it stil
 
 show_plainly()
 
-__all__ = ["FormatError", "Particles", "ProgramError", "Quantity", "ReplacedError", "Run", "SolidsTable", "__version__", "calibrate",
+
+def __getattr__(name: str) -> object:
+    if name == "plot":  # needs Matplotlib
+        return importlib.import_module("polybed.plot")
+    raise AttributeError(f"module 'polybed' has no attribute {name!r}")
+
+
+def __dir__() -> list[str]:
+    return [*__all__, "plot"]
+
+
+__all__ = ["Check", "FormatError", "Particles", "ProgramError", "Quantity", "ReplacedError", "Run", "SolidsTable", "__version__", "calibrate",
            "case", "check", "compare", "cost", "fit", "inversion", "measure", "read", "read_table", "run", "scan", "sweep", "table"]

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from polybed.packages import needed
-from polybed.quantities import unit_of_field
+from polybed.quantities import unit_of_field, unknown
 
 with needed(False):
     import xarray as xr
@@ -80,5 +80,5 @@ SOURCES = {"fields": fields, "profiles": profiles}
 def dataset(run: Run, source: str) -> xr.Dataset:
     """`fields` or `profiles` of a run. Raises KeyError for another source."""
     if source not in SOURCES:
-        raise KeyError(f"there is no {source}; there are {', '.join(SOURCES)}")
+        raise unknown("a dataset", source, SOURCES)
     return SOURCES[source](run)

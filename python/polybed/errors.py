@@ -9,6 +9,7 @@ from pathlib import Path
 from types import TracebackType
 
 from polybed.packages import plain
+from polybed.progress import SIMULATED
 
 PACKAGE = Path(__file__).resolve().parent
 
@@ -25,12 +26,19 @@ class PlainError(Exception):
 
 
 class ProgramError(PlainError):
-    """The program ended with a code other than 0. The text names the function that was called and quotes the message of the program;
-    `words` is the command line."""
+    """The program ended with a code other than 0. The text names the function that was called and quotes the message of the program without
+    progress and warnings; `said` is all that it wrote, `words` the command line."""
 
     def __init__(self, words: list[str], code: int, said: str, called: str = "polybed") -> None:
-        super().__init__(f"{called} ended with {code}: {said.strip()}")
+        message = "".join(line for line in said.splitlines(keepends=True) if not (line.startswith("warning: ") or SIMULATED.match(line)))
+        super().__init__(f"{called} ended with {code}: {(message or said).strip()}")
         self.words, self.code, self.said = words, code, said.strip()
+
+
+class UnknownNameError(PlainError, KeyError):
+    """A name that is not there. The text says what it could mean, or the names that there are."""
+
+    __str__ = BaseException.__str__  # KeyError shows its text in quotation marks
 
 
 class NoProgramError(PlainError, FileNotFoundError):

@@ -4,6 +4,14 @@ from pathlib import Path
 
 from polybed.files import ReplacedError, contents_of, read_json
 
+# Any of them makes a run directory; an empty one is that of a run that starts.
+CONTENTS = {".polybed", "run.json", "history.csv", "fields.h5", "profiles.h5", "particles.h5"}
+
+
+def runs_in(folder):
+    """The run directories in a folder, by their names."""
+    return sorted(path.parent for path in Path(folder).glob("*/run.json"))
+
 
 class RunFolder:
     """A run directory that hands out the paths of its files as long as it holds the run that it held when it was opened: the one
@@ -11,8 +19,9 @@ class RunFolder:
 
     def __init__(self, directory):
         self.path = Path(directory)
-        if not self.path.is_dir():
-            raise FileNotFoundError(f"{directory} is no run directory")
+        names = {path.name for path in self.path.iterdir()} if self.path.is_dir() else {""}
+        if names and not names & CONTENTS:
+            raise FileNotFoundError(f"{directory} is no run directory{'; it contains some: use polybed.table' if runs_in(self.path) else ''}")
         self._record, self._stamp, self._identity = {}, None, None
         self.record()
 

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from polybed.checks import Check
 from polybed.overrides import keys_of_case
 from polybed.packages import needed
 from polybed.quantities import unit_of_column
@@ -29,32 +30,36 @@ def frame(run: Run) -> Any:
     return table
 
 
-def keys_of(run: Run) -> dict[str, Any]:
-    """The keys of a run's resolved case by dotted names, those of a species by its name. A velocity that is constant is one number."""
-    keys = keys_of_case(run.record.get("case", ""))
+def keys_of(case: str) -> dict[str, Any]:
+    """The keys of a resolved case by dotted names, those of a species by its name. A velocity that is constant is one number."""
+    keys = keys_of_case(case)
     constant = {key: value[0][1] for key, value in keys.items()
                 if key.endswith("superficial_velocity") and isinstance(value, list) and len(value) == 1}
     return keys | constant
 
 
-def table(runs: Iterable[Run]) -> pd.DataFrame:
-    """A row for each run: the keys in which the cases differ, the model if the runs are of both, the state of the run, and the numbers and
-    words of its card, a mean with its interval as two columns. The index is the folder."""
-    each = list(runs)
-    keys = [keys_of(run) for run in each]
-    differ = [key for key in dict.fromkeys(itertools.chain(*keys)) if any(one.get(key) != keys[0].get(key) for one in keys)]
-    of_both = len({run.record.get("model") for run in each}) > 1
-    rows = []
-    for run, own in zip(each, keys):
-        model = {"model": run.record.get("model")} if of_both else {}
-        rows.append({key: own.get(key) for key in differ} | model | {"run_state": run.record.get("state")} | dict(card_of(run.card)))
-    return pd.DataFrame(rows, index=pd.Index([str(run.directory) for run in each], name="run"))
+def table(rows: Iterable[Run | Check]) -> pd.DataFrame:
+    """A row for each run: the keys in which the cases differ, the model if there are several, the state of the run, and the numbers and
+    words of its card, a mean with its interval as two columns; those that are alike in all rows come last. The index is the folder."""
+    each = list(rows)
+    records = [{"case": one["case"], "model": "check"} if isinstance(one, Check) else one.record for one in each]
+    cards = [dict(card_of(one["expected"] if isinstance(one, Check) else one.card)) for one in each]
+    keys = [keys_of(record.get("case", "")) for record in records]
+    first = [key for key in dict.fromkeys(itertools.chain(*keys)) if any(one.get(key) != keys[0].get(key) for one in keys)]
+    first += ["model"] if len({record.get("model") for record in records}) > 1 else []
+    first += ["run_state"] if any("state" in record for record in records) else []
+    found = [own | {"model": record.get("model"), "run_state": record.get("state")} | card for own, record, card in zip(keys, records, cards)]
+    seen = dict.fromkeys(itertools.chain(*cards))
+    values = {name: [row.get(name) for row in found] for name in seen}
+    rest = sorted(seen, key=lambda name: (values[name].count(None) == len(each), values[name].count(values[name][0]) == len(each)))
+    index = [str(getattr(one, "directory", "check")) for one in each]
+    return pd.DataFrame(found, columns=[*first, *rest], index=pd.Index(index, name="run"))
 
 
 def card_of(card: dict[str, Any], above: str = "") -> Iterator[tuple[str, Any]]:
     """The entries of a card by dotted names; {"value", "interval"} as name and name_interval."""
     for name, value in card.items():
-        if name == "lines":  # the same in words
+        if isinstance(value, list):  # the same in words, or no single number
             continue
         if isinstance(value, dict) and value.keys() == {"value", "interval"}:
             yield from ((above + name, value["value"]), (f"{above}{name}_interval", value["interval"]))

@@ -1,16 +1,4 @@
-"""Runs the program: one run, a sweep, a comparison of both models, a scan for the inversion velocity, a calibration.
-
-    import polybed
-    run = polybed.run("case.toml", "tfm", {"inlet.superficial_velocity": "30 mm/s"}, until="20 s")
-    runs = polybed.sweep("case.toml", "inlet.superficial_velocity", ["20 mm/s", "30 mm/s"])
-    found = polybed.compare("case.toml")
-    found = polybed.inversion("case.toml", scan="tfm")
-    table = polybed.calibrate("case.toml", {"calibrate.solids_fraction": [0.2, 0.4]}, jobs=2)
-
-A run that is finished already, of the same case, is opened and not made again. Overrides are keys of the case file with their
-values: texts with or without a unit, numbers, lists and arrays; {"tfm": {"rtol": 1e-4}} is {"tfm.rtol": 1e-4}. What the program says
-of its progress goes to standard error as it comes, unless quiet.
-"""
+"""Functions that run the program: a check, one run, a sweep, a comparison of both models, a scan for the inversion velocity, a calibration."""
 
 from __future__ import annotations
 
@@ -26,11 +14,13 @@ from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 from typing import Any, ParamSpec, TypeVar
 
+from polybed.checks import Check
 from polybed.ending import NUMBERS
 from polybed.errors import ProgramError
 from polybed.files import FAULTS, MISFITS, read_json
 from polybed.overrides import Overrides, Value, plain, toml, words
-from polybed.progress import BarOfRuns, put, redrawn
+from polybed.progress import BarOfRuns, put
+from polybed.quantities import unknown
 from polybed.read import Run, read
 from polybed.runner import answer_of, call, has_checkpoint, program, side_by_side, sources
 from polybed.solids_table import SolidsTable, read_table
@@ -40,7 +30,6 @@ Place = str | os.PathLike[str]  # of a file or a folder
 MODELS = ("tfm", "dem")
 DIGITS = 10  # of a hash in the name of a folder
 STEADY = "steady"  # as `until`
-LONGEST_TO_STEADY = 20  # times run.until
 SAME_TIME = 1e-9  # relative difference of two times that are one
 
 
@@ -48,15 +37,20 @@ Arguments = ParamSpec("Arguments")
 Answer = TypeVar("Answer")
 
 
+# Options of the command line as arguments of the functions, in what the program says.
+IN_PYTHON = {"--set ": "overrides: ", "--until": "until", "--force": "force=True", "-o names": "output names"}
+
+
 def names_itself(function: Callable[Arguments, Answer]) -> Callable[Arguments, Answer]:
-    """A function whose ProgramError names it with its first argument: what the user has called, not the command behind it."""
+    """A function whose ProgramError names it with its first argument and its own arguments: what the user typed."""
     @functools.wraps(function)
     def called(*arguments: Arguments.args, **options: Arguments.kwargs) -> Answer:
         try:
             return function(*arguments, **options)
         except ProgramError as error:
             first = str(next(iter((*arguments, *options.values())), ""))
-            raise ProgramError(error.words, error.code, error.said, f"polybed.{function.__name__}({first!r})") from None
+            said = functools.reduce(lambda text, pair: text.replace(*pair), IN_PYTHON.items(), error.said)
+            raise ProgramError(error.words, error.code, said, f"polybed.{function.__name__}({first!r})") from None
     return called
 
 
@@ -80,17 +74,18 @@ def cases_folder() -> Path | None:
 
 
 def case(name: str) -> Path:
-    """Path of the case file of a shipped case, by the name of its folder: case("small-binary"). Raises KeyError with the names."""
-    folder = cases_folder()
-    names = sorted(path.parent.name for path in folder.glob("*/case.toml")) if folder else []
-    if folder is None or name not in names:
-        raise KeyError(f"there is no case {name!r}; there are {', '.join(names) or 'none beside the program'}")
-    return folder / name / "case.toml"
+    """Path of the case file of a shipped case or a template: case("small-binary"), case("liquid-bed"). Raises KeyError with the names.
+    overrides can replace all that such a case describes, {"species": [{"name": "sand", "diameter": "1 mm", "density": 2650}, ...]}."""
+    folder = cases_folder() or Path("cases")
+    found = {path.parent.name: path for pattern in ("templates/*/case.toml", "*/case.toml") for path in sorted(folder.glob(pattern))}
+    if name not in found:
+        raise unknown(folder, name, sorted(found))
+    return found[name]
 
 
-def resolved(case: Place, overrides: Overrides | None, until: Value | None) -> tuple[str, str]:
-    """The case as the record of a run of it has it, and its hash."""
-    found = answer_of("check", case, *settings(overrides, until), "--resolved")
+def resolved(case: Place, words: list[str]) -> tuple[str, str]:
+    """The case with these options as the record of a run of it has it, and its hash."""
+    found = answer_of("check", case, *words, "--resolved")
     return found["case"], found["hash"]
 
 
@@ -120,14 +115,14 @@ def physics(text: str) -> dict[str, Any]:
     return {part: keys for part, keys in tomllib.loads(text).items() if part not in ("run", "output")}
 
 
-def resumable(output: Path, model: str, text: str, to_steady: bool = False) -> bool:
-    """Whether the run in a folder can continue to run.until of a resolved case: it has a checkpoint, has not failed, is by this model and of
-    this case apart from `run.` and `output.` keys, and is not later than run.until already."""
-    record, until = record_in(output), tomllib.loads(text)["run"]["until"] * (LONGEST_TO_STEADY if to_steady else 1)
+def later(output: Path, model: str, text: str) -> float | None:
+    """Time of the run in a folder if that is beyond run.until of a resolved case, and the run is by this model and of this case apart from
+    `run.` and `output.` keys; None otherwise."""
+    record, until = record_in(output), tomllib.loads(text)["run"]["until"]
     with contextlib.suppress(*MISFITS):
-        return (has_checkpoint(output) and record["model"] == model and not record["state"].startswith("failed") and
-                physics(record["case"]) == physics(text) and record["time_s"] <= until * (1 + SAME_TIME))
-    return False
+        if record["model"] == model and physics(record["case"]) == physics(text) and record["time_s"] > until * (1 + SAME_TIME):
+            return float(record["time_s"])
+    return None
 
 
 def name_of(case: Place) -> str:
@@ -142,29 +137,43 @@ def folder_of(case: Place, what: str, digest: str) -> Path:
 
 
 @names_itself
-def check(case: Place, overrides: Overrides | None = None, until: Value | None = None) -> dict[str, Any]:
-    """What `polybed check --json` says of a case, without a run: in "expected" the state and the height of the bed and the velocities of
-    fluidisation and of fall, named as in a run's card; steps, memory and time that a run takes, notes, and why a model refuses it."""
-    return answer_of("check", case, *settings(overrides, until))
+def check(case: Place, overrides: Overrides | None = None, until: Value | None = None) -> Check:
+    """What to expect of a case, without a run. Printed, and shown by a notebook, it is the text of `polybed check`.
+
+    Returns the dictionary of `polybed check --json` with the answers first, in SI units named as in a run's card:
+    "expected": "state" ("packed", "fluidised", "carried_up"), "bed_height_m", "u_mf_m_s", "terminal_m_s" and others; "expansion" has the
+    velocities at which the bed stands a share of 0.1, 0.3 and 0.5 higher than settled. See polybed.table for other velocities.
+    "notes": warnings; "refused": why a model does not run it, empty if it does; "time" of computing; ...; "case": all keys, resolved
+    """
+    words = (case, *settings(overrides, until))
+    return Check(answer_of("check", *words), words)
 
 
-def made(case: Place, model: str, overrides: Overrides | None, until: Value | None, ranks: int,
-         tell: Callable[[str], None] | None, place: Callable[[str], Path], resume: bool = False,
-         keep_failed: bool = False) -> Run:
-    """Opens the finished run that is in a folder, or makes it. place: the folder by the hash of the resolved case; resume: continues what is
-    resumable there and begins anew otherwise; keep_failed: returns a run whose numerics failed"""
+def made(case: Place, model: str, words: list[str], known: tuple[str, str], ranks: int, tell: Callable[[str], None], output: Path,
+         resume: bool = False, keep_failed: bool = False) -> Run:
+    """Opens the finished run that is in a folder, or makes it. words: options of the case; known: what `resolved` says of them; resume:
+    continues from the checkpoint there, of a run that has not failed; keep_failed: returns a run whose numerics failed"""
+    text, to_steady = known[0], STEADY in words[-1:]
+    if finished(output, model, text, to_steady):
+        return read(output)
+    there = record_in(output)
+    goes_on = resume and has_checkpoint(output) and not str(there.get("state")).startswith("failed")
+    if goes_on and there.get("model", model) != model:
+        raise ValueError(f"{output} contains a run by {there['model']}: name another output, or leave out resume to replace it")
+    if goes_on and not to_steady and (time := later(output, model, text)):
+        tell(f"warning: {output} contains this run up to {time:g} s already, beyond `until`: opened as it is\n")
+        return read(output)
+    try:
+        call(model, case, *words, "-o", output, "--resume" if goes_on else "--force", "--no-picture", ranks=ranks, tell=tell)
+    except ProgramError as error:
+        if not keep_failed or error.code != NUMBERS:
+            raise
+    return read(output)
+
+
+def must_be_model(model: str) -> None:
     if model not in MODELS:
         raise ValueError(f"there is no model {model!r}; there are {', '.join(MODELS)}")
-    text, digest = resolved(case, overrides, until)
-    output, to_steady = place(digest[:DIGITS]), until == STEADY
-    if not finished(output, model, text, to_steady):
-        begin = "--resume" if resume and resumable(output, model, text, to_steady) else "--force"
-        try:
-            call(model, case, *settings(overrides, until), "-o", output, begin, "--no-picture", ranks=ranks, tell=tell)
-        except ProgramError as error:
-            if not keep_failed or error.code != NUMBERS:
-                raise
-    return read(output)
 
 
 @names_itself
@@ -176,12 +185,14 @@ def run(case: Place, model: str = "tfm", overrides: Overrides | None = None, out
     output: run directory, where another run is replaced, and reading that one raises ReplacedError from then on; by default
     runs/<case name>-<model>-<hash of the resolved case>, so that no run replaces another
     quiet: shows no progress; label: stands before each line of it
-    resume: continues from the checkpoint in the folder, as `--resume` does: after a run was killed, or with a longer `until`. The run begins
-    anew, as without `resume`, if the one in the folder is by another model, differs in keys other than `run.` and `output.`, is later than
-    `until` already, or has failed
+    resume: continues from the checkpoint in the folder: after a run was killed, or in the same `output` with a longer `until`. A run there
+    that is later than `until` already is opened, one that failed begins anew, and one of another case or model raises ProgramError
     """
-    return made(case, model, overrides, until, ranks, teller(quiet, label),
-                lambda digest: Path(output) if output else folder_of(case, model, digest), resume)
+    must_be_model(model)
+    words = settings(overrides, until)
+    known = resolved(case, words)
+    place = Path(output) if output else folder_of(case, model, known[1][:DIGITS])
+    return made(case, model, words, known, ranks, teller(quiet, label), place, resume)
 
 
 def differing_effects(texts: Iterable[str]) -> str:
@@ -207,36 +218,36 @@ def sweep(case: Place, key: str | Mapping[str, Iterable[Value]], values: Iterabl
     """Runs a case for several values of a key and returns the runs in their order, each in a folder of its own, called by the value
     and the hash of its case. With {key: values} for several keys it runs all combinations, the last key first; see polybed.table.
 
-    values: numbers in SI, texts with a unit, or an array along its first axis; until: simulated time, "20 s" or seconds
+    values: numbers in SI, texts with a unit, or an array along its first axis; until: simulated time, "20 s" or seconds. All cases are
+    checked before the first one runs.
     at_once: how many run side by side; unless quiet, a bar says how far they are, or, where standard error is no terminal and no notebook, lines
-    resume: continues runs that were killed from their checkpoints, under the conditions of polybed.run; others begin anew, failed ones among
-    them; finished runs are opened in any case
+    resume: continues killed runs, as in polybed.run; failed runs begin anew; finished runs are opened in any case
     keep_failed: returns also runs whose numerics failed, code 3, of which `record["state"]` says why; otherwise the first one ends the sweep
     Warns before the runs if effects that the case leaves to the program differ between them.
     """
+    must_be_model(model)
     axes = {key: values} if isinstance(key, str) else key
-    each, done = [dict(zip(axes, point)) for point in itertools.product(*map(list, axes.values()))], itertools.count(1)
+    each = [dict(zip(axes, point)) for point in itertools.product(*map(list, axes.values()))]
+    if not each:
+        raise ValueError(f"a sweep needs values for {' and '.join(axes) or 'a key'}")
     folder = Path(output) if output else Path("runs") / f"{name_of(case)}-{model}-sweep"
-    bar = BarOfRuns(len(each)) if redrawn() and not quiet else None
+    words = [settings(dict(overrides or {}) | point, until) for point in each]
+    bar = BarOfRuns(len(each), quiet)
     last = [key.rpartition(".")[2] for key in axes]
     called = {key: end if last.count(end) == 1 else key for key, end in zip(axes, last)}
 
-    def one(number: int) -> Run:
-        point = each[number]
-        shown = ", ".join(f"{called[key]} {toml(plain(value, key))}" for key, value in point.items()).replace('"', "")[:100]
+    def one(number: int, known: tuple[str, str]) -> Run:
+        shown = ", ".join(f"{called[key]} {toml(plain(value, key))}" for key, value in each[number].items()).replace('"', "")[:100]
         name = "".join(c if c.isalnum() or c in ".-" else "_" for c in shown)
-        tell = bar.hearer(number, shown) if bar else teller(quiet, shown)
-        found = made(case, model, dict(overrides or {}) | point, until, 1, tell, lambda digest: folder / f"{name}-{digest}", resume, keep_failed)
-        if bar:
-            bar.finish(number)
-        else:
-            teller(quiet)(f"{next(done)} of {len(each)} runs done: {shown}\n")
+        place = folder / f"{name}-{known[1][:DIGITS]}"
+        found = made(case, model, words[number], known, 1, bar.hearer(number, shown), place, resume, keep_failed)
+        bar.finish(number, shown)
         return found
     with side_by_side(at_once) as pool:
-        texts = pool.map(lambda point: resolved(case, dict(overrides or {}) | point, until)[0], each)
-        if differ := differing_effects(texts):
+        known = list(pool.map(lambda more: resolved(case, more), words))
+        if differ := differing_effects(text for text, _ in known):
             warnings.warn(differ, stacklevel=3)  # at the caller of sweep
-        return list(pool.map(one, range(len(each))))
+        return list(pool.map(one, range(len(each)), known))
 
 
 @names_itself
@@ -248,7 +259,7 @@ def compare(case: Place, tfm: Run | Place | None = None, dem: Run | Place | None
     output: default runs/<case name>-compare-<hash of the resolved case>
     page: also writes comparison.html
     """
-    output = Path(output) if output else folder_of(case, "compare", resolved(case, overrides, until)[1][:DIGITS])
+    output = Path(output) if output else folder_of(case, "compare", resolved(case, settings(overrides, until))[1][:DIGITS])
     options: list[object] = []
     for model, given in (("tfm", tfm), ("dem", dem)):
         made = run(case, model, overrides, output / model, until, quiet=quiet, label=model) if given is None else given
@@ -270,7 +281,7 @@ def inversion(case: Place, scan: str | None = None, overrides: Overrides | None 
     options: list[object] = ["inversion", case, *settings(overrides, until if scan else None), *(["--method", method] if method else [])]
     if scan is None:
         return answer_of(*options)
-    output = Path(output) if output else folder_of(case, "inversion", resolved(case, overrides, until)[1][:DIGITS])
+    output = Path(output) if output else folder_of(case, "inversion", resolved(case, settings(overrides, until))[1][:DIGITS])
     for option, velocity in (("--from", begin), ("--to", end)):
         options += [] if velocity is None else [option, plain(velocity, option)]
     call(*options, "--scan", scan, "-o", output, "--no-picture", tell=teller(quiet))

@@ -12,6 +12,7 @@ from polybed.packages import plain
 
 WIDTH = 40
 SIMULATED = re.compile(r"t ([\d.e+-]+)/([\d.e+-]+) s")  # how a line of a run's progress begins
+NUMBER = re.compile(r"-?\d[\d.]*(e[+-]?\d+)?")
 
 
 def redrawn() -> bool:
@@ -35,7 +36,8 @@ class Bar:
         self.name, self.line = name, ""
 
     def wipe(self) -> None:
-        put("\r" + " " * len(self.line) + "\r")
+        if self.line:
+            put("\r" + " " * len(self.line) + "\r")
 
     def show(self, done: float, count: int, told: str | None = None) -> None:
         """told: behind the bar; by default how many are done"""
@@ -53,12 +55,12 @@ class Bar:
 
 class BarOfRuns(Bar):
     """The bar of runs side by side: each counts by the share of its time that it has simulated. Warnings stay above it, those of several
-    runs once."""
+    runs once, whatever their numbers. Where nothing is redrawn, each run that ends and each tenth of the whole has a line."""
 
-    def __init__(self, count: int) -> None:
+    def __init__(self, count: int, quiet: bool = False) -> None:
         super().__init__("runs")
-        self.share, self.lock = [0.0] * count, threading.Lock()
-        self.warned: set[str] = set()
+        self.share, self.lock, self.tenths = [0.0] * count, threading.Lock(), 0
+        self.quiet, self.redrawn, self.warned = quiet, redrawn(), set[str]()
 
     def hearer(self, run: int, name: str) -> Callable[[str], None]:
         """What hears each line of a run, by its number and name."""
@@ -66,16 +68,22 @@ class BarOfRuns(Bar):
             with self.lock:
                 if found := SIMULATED.match(line):
                     self.advance(run, min(float(found[1]) / float(found[2]), 0.99))
-                elif line.startswith("warning") and line not in self.warned:
-                    self.warned.add(line)
+                elif line.startswith("warning") and not self.quiet and (kind := NUMBER.sub("", line)) not in self.warned:
+                    self.warned.add(kind)
                     self.above(f"{name}: {line}")
         return hear
 
-    def finish(self, run: int) -> None:
+    def finish(self, run: int, name: str) -> None:
         with self.lock:
-            self.advance(run, 1.0)
+            self.advance(run, 1.0, name)
 
-    def advance(self, run: int, share: float) -> None:
+    def advance(self, run: int, share: float, name: str = "") -> None:
         self.share[run] = share
-        whole = self.share.count(1.0)
-        self.show(sum(self.share), len(self.share), f"{whole} of {len(self.share)} done")
+        done, count, whole = sum(self.share), len(self.share), f"{self.share.count(1.0)} of {len(self.share)}"
+        if self.quiet:
+            return
+        if self.redrawn:
+            self.show(done, count, f"{whole} done")
+        elif name or int(10 * done / count) > self.tenths:
+            put(plain(f"{whole} runs done: {name}\n" if name else f"runs: {100 * done / count:.0f} % simulated, {whole} done\n"))
+            self.tenths = int(10 * done / count)

@@ -10,6 +10,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from polybed.errors import UnknownNameError
+
 if TYPE_CHECKING:
     from polybed.read import Run
 
@@ -25,8 +27,8 @@ BEGINNINGS = {"phi_": "1", "voidage": "1", "u_": "m/s", "theta_": "m2/s2", "tota
               "density": "kg/m3"}
 
 
-class Quantity:
-    """An array with its unit and the times of its first axis; numpy takes it as the array.
+class Quantity(np.lib.mixins.NDArrayOperatorsMixin):
+    """An array with its unit and the times of its first axis. NumPy and arithmetic treat it as the array.
 
     values: [time], [time][y], or [time][y][x] as the fields; unit: of its values, "1" without; time: s
     """
@@ -37,6 +39,9 @@ class Quantity:
     def __array__(self, *arguments: Any, **options: Any) -> np.ndarray:
         return np.asarray(self.values, *arguments, **options)
 
+    def __array_ufunc__(self, ufunc: np.ufunc, method: Any, *inputs: Any, **kwargs: Any) -> Any:
+        return getattr(ufunc, method)(*(each.values if isinstance(each, Quantity) else each for each in inputs), **kwargs)
+
     def __len__(self) -> int:
         return len(self.values)
 
@@ -44,7 +49,8 @@ class Quantity:
         return self.values[item]
 
     def __repr__(self) -> str:
-        return f"Quantity of shape {self.values.shape} in {self.unit}"
+        said = f"Quantity of shape {self.values.shape} in {self.unit}"
+        return f"{said}, {self.values[0]:.4g} to {self.values[-1]:.4g} at {self.time[0]:g} to {self.time[-1]:g} s" if self.values.ndim == 1 < len(self) else said
 
 
 def unit_of_column(name: str) -> str:
@@ -64,11 +70,11 @@ def unit_of_field(name: str) -> str:
     return "1"
 
 
-def unknown(where: object, name: str, known: Iterable[str]) -> KeyError:
-    """The error for a name that is not there: what it could mean, and the names that there are."""
+def unknown(where: object, name: str, known: Iterable[str]) -> UnknownNameError:
+    """The error for a name that is not there: what it could mean, or else the names that there are."""
     names = list(known)
-    near = difflib.get_close_matches(name, names, 1)
-    return KeyError(f"{where} has no {name}{f'; did you mean {near[0]}?' if near else ''}; it has {', '.join(names)}")
+    near = difflib.get_close_matches(name, names, 3)
+    return UnknownNameError(f"{where} has no {name}; " + (f"did you mean {' or '.join(near)}?" if near else f"it has {', '.join(names)}"))
 
 
 class Named(dict[str, Any]):
@@ -85,14 +91,11 @@ class Named(dict[str, Any]):
 def find(run: Run, name: str, source: str | None = None) -> Quantity:
     """A quantity of a run: of its history, where the unit at the end of a column's name may be left out ("bed_height"), of its
     profiles, or of its fields. The first that has it, unless a source is named."""
-    found = {"history": of_history, "profiles": of_profiles, "fields": of_fields}
-    if source is not None and source not in found:
-        raise KeyError(f"there is no {source}; there are {', '.join(found)}")
-    for key, look in found.items():
-        quantity = look(run, name) if source in (None, key) else None
+    for key in sources_of(source):
+        quantity = SOURCES[key](run, name)
         if quantity is not None:
             return quantity
-    raise unknown(run.directory, name, names(run))
+    raise unknown(run.directory, name, names(run, source))
 
 
 def of_history(run: Run, name: str) -> Quantity | None:
@@ -114,9 +117,29 @@ def of_fields(run: Run, name: str) -> Quantity | None:
     return Quantity(run.field(name)[:], unit_of_field(name), run.time) if name in run.fields else None
 
 
-def names(run: Run) -> list[str]:
+SOURCES = {"history": of_history, "profiles": of_profiles, "fields": of_fields}
+
+
+def sources_of(source: str | None) -> list[str]:
+    if source is not None and source not in SOURCES:
+        raise unknown("a run", source, SOURCES)
+    return list(SOURCES) if source is None else [source]
+
+
+class Names(list[str]):
+    """Names of quantities. Shown, they are sorted by where they are stored."""
+
+    def __init__(self, by_source: dict[str, list[str]]) -> None:
+        super().__init__(sorted({name for names in by_source.values() for name in names}))
+        self.by_source = by_source
+
+    def __repr__(self) -> str:
+        return "\n".join(f"{source:10}{', '.join(names)}" for source, names in self.by_source.items())
+
+
+def names(run: Run, source: str | None = None) -> Names:
     """What find() knows of a run."""
-    return sorted({*run.history, *run.profiles, *run.fields} - {"y_m"})
+    return Names({each: sorted({*getattr(run, each)} - {"y_m"}) for each in sources_of(source)})
 
 
 # Measures whose words are not those of the table of measures.

@@ -1,13 +1,4 @@
-"""A run directory as an object: fields, particles, profiles and history by name, as numpy arrays.
-
-    import polybed
-    run = polybed.read("runs/bed-tfm")
-    run.phi_fine[-1]                  # last stored field, [y][x]
-    run.time, run.history["bed_height_m"], run.profiles["voidage"]
-    height = run.quantity("bed_height")    # numbers with their unit and times: height.values, .unit, .time
-    run.card["bed_height_m"]          # its mean over the last quarter, with the interval
-    last = run.particles[-1]          # of a run of particles
-    last.position[last.of("fine")]    # [particle][x, y, z]
+"""A run directory as an object: fields, particles, profiles and history by name, as NumPy arrays.
 
 Nothing is read before it is asked for, and a run that is still going on can be read: each file is whole.
 """
@@ -65,7 +56,8 @@ def kinds_among(names: list[str]) -> dict[str, list[str]]:
 
 
 class Run:
-    """A run directory. Fields are attributes (run.voidage, run.u_fluid, run.phi_<name>) or run.field(name)."""
+    """A run directory: run.card has the results, run.frame() the history, run.dataset() the fields, run.names() the names for run.quantity().
+    Fields are also attributes: run.voidage[-1] is the last one stored, [y][x]."""
 
     def __init__(self, directory: str | os.PathLike[str]) -> None:
         self._folder = RunFolder(directory)
@@ -115,16 +107,16 @@ class Run:
     def field(self, name: str) -> Series:
         """A field over time, as a sequence of arrays [y][x] or [z][y][x], a vector with its components behind."""
         if name not in self.fields:
-            raise KeyError(f"{self.directory}/fields holds no {name}; it holds {', '.join(self.fields)}")
+            raise quantities.unknown(f"{self.directory}/fields", name, self.fields)
         return Series(self, name)
 
     def __getattr__(self, name):
         if not name.startswith("_") and name in self.__dict__.get("fields", ()):
             return Series(self, name)
-        raise AttributeError(f"a run has no '{name}'; its fields are {self.__dict__.get('fields', [])}")
+        raise AttributeError(f"a run has no field '{name}', only {', '.join(self.__dict__.get('fields', []))}; try run.quantity('{name}')")
 
     def __dir__(self):
-        return [*super().__dir__(), *self.fields]
+        return [*super().__dir__(), *filter(str.isidentifier, self.fields)]
 
     @property
     def dimensions(self) -> int:
@@ -210,9 +202,9 @@ class Run:
         from polybed import datasets
         return datasets.dataset(self, source)
 
-    def names(self) -> list[str]:
-        """What quantity() knows."""
-        return quantities.names(self)
+    def names(self, source: str | None = None) -> list[str]:
+        """What quantity() finds: a list that is shown by where it is, "history", "profiles" or "fields"; with a source what is there."""
+        return quantities.names(self, source)
 
     def plot(self, what: str | list[str] | None = None, **options: Any) -> list[Path]:
         """Draws the run, or one kind of picture of it, and returns the paths; see polybed.plot.pictures."""

@@ -18,13 +18,12 @@ import numpy as np
 
 from polybed.files import DamagedError, fits, open_hdf5
 from polybed.page import table
+from polybed.quantities import unknown
 
 # Units of what is no ratio and no fraction; pressures of a fluidised bed are told over the weight of a layer of one diameter.
 BED = "(rho_p - rho_f) g D"
 UNITS = {"velocity": "m/s", "theta_bed": BED + "/rho_p"}
 AXES = ("phi", "stokes", "e", "mu_p", "x2")  # of sheared particles, in the order of the arrays
-
-
 QUANTITY = re.compile("S|.*_ratio(_12)?(_se|_n)?")  # an array over these axes
 
 
@@ -61,7 +60,7 @@ class SolidsTable:
 
     def __getitem__(self, name: str) -> np.ndarray:
         if name not in self._arrays:
-            raise KeyError(f"{self.path} holds no {name}; it holds {', '.join(self.names())}")
+            raise unknown(self.path, name, self.names())
         return self._arrays[name]
 
     def _repr_html_(self) -> str:

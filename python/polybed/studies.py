@@ -3,12 +3,15 @@ polybed.program."""
 
 from __future__ import annotations
 
+import itertools
 import os
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Any
 
+from polybed.checks import Check
 from polybed.files import read_json
+from polybed.folder import runs_in
 from polybed.overrides import Overrides, Value, plain
 from polybed.program import DIGITS, Place, folder_of, inversion, names_itself, resolved, settings, teller
 from polybed.read import Run, read
@@ -26,15 +29,17 @@ def measure(run: Run | Place) -> dict[str, Any]:
     return answer_of("measure", getattr(run, "directory", run))
 
 
-def table(runs: Iterable[Run | Place] | Run | Place) -> Any:
+def table(runs: Iterable[Run | Check | Place] | Run | Check | Place) -> Any:
     """Runs as a pandas.DataFrame with a row each: the keys in which their cases differ, the model if there are both, the state of the run,
-    and its card.
+    and its card, what differs first. The unit ends a column's name; NAME_interval is half of the 95 % interval of the mean NAME.
 
-    runs: runs, or their directories, as `polybed.sweep` returns them; also a single one
+    runs: runs, or their directories, as `polybed.sweep` returns them; a folder stands for the runs in it; also a single one. Answers of
+    polybed.check have what they expect in the row of a model "check": [polybed.check(case, {key: value}) for value in values]
     """
     from polybed import frames
-    each: Iterable[Run | Place] = [runs] if isinstance(runs, Run | str | os.PathLike) else runs
-    return frames.table(run if isinstance(run, Run) else read(run) for run in each)
+    each = [runs] if isinstance(runs, Run | Check | str | os.PathLike) else list(runs)
+    opened = [[one] if isinstance(one, Run | Check) else list(map(read, runs_in(Path(one)) or [one])) for one in each]
+    return frames.table(itertools.chain(*opened))
 
 
 @names_itself
@@ -61,7 +66,7 @@ def cost(case: Place, model: str | None = None, axes: tuple[str, ...] = (), targ
     output: default runs/<case name>-cost-<hash of the resolved case>; a sweep that stands there goes on where it ended
     Returns cost.json as a dictionary: errors relative, times in seconds. Raises ProgramError.
     """
-    folder = Path(output) if output else folder_of(case, "cost", resolved(case, overrides, until)[1][:DIGITS])
+    folder = Path(output) if output else folder_of(case, "cost", resolved(case, settings(overrides, until))[1][:DIGITS])
     options: list[object] = ["cost", case, *settings(overrides, until), "-o", folder, *([] if picture else ["--no-picture"])]
     for option, value in (("--model", model), ("--axes", ",".join(axes) or None), ("--target", target), ("--budget", budget)):
         options += [] if value is None else [option, plain(value, option)]

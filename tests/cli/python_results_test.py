@@ -48,6 +48,11 @@ class Results(Scratch):
         self.assertEqual(list(table.columns[:2]), ["species.fine.diameter", "inlet.superficial_velocity"])
         np.testing.assert_allclose(table[list(grid)], [[u, d] for u in (0.02, 0.03) for d in (8e-4, 9e-4)], rtol=1e-12)
         self.assertRegex(str(runs[0].directory), r"/superficial_velocity_20_mm_s__diameter_0\.8_mm-\w{10}$")
+        self.assertEqual(list(table.columns[-3:]), [name for name in table if table[name].isna().all()][-3:], "what is empty comes last")
+        self.assertTrue(table.equals(polybed.table(runs).loc[table.index]))
+        self.assertEqual(set(polybed.table(self.folder / "grid").index), set(table.index), "a folder stands for the runs in it")
+        with self.assertRaisesRegex(FileNotFoundError, "grid is no run directory; it contains some"):
+            polybed.read(self.folder / "grid")
         self.assertEqual(len(polybed.table(runs[0])), 1)
         for run, row in zip(runs, table.itertuples()):
             self.assertEqual((row.run_state, row.state), ("done", run.card["state"]))
@@ -79,44 +84,41 @@ class Results(Scratch):
         swept = polybed.sweep(CASE, "tfm.rtol", [1e-3], overrides=keys, output=self.folder / "new", until="2 ms", quiet=True, resume=True)
         self.assertEqual(swept[0].record["state"], "done", "without a checkpoint a run begins")
 
-    def begins(self, folder, model="tfm", overrides=SHORT, until="8 ms"):
+    def begins(self, folder, overrides, until="8 ms"):
         """The run that `resume` makes in a folder, and the first time of which it shows progress; None if it opened the run that was there."""
         with contextlib.redirect_stderr(io.StringIO()) as shown:
-            run = polybed.run(CASE, model, overrides, folder, until, resume=True)
+            run = polybed.run(CASE, "tfm", overrides, folder, until, resume=True)
         times = re.findall(r"(?m)^t ([\d.e-]+)/", shown.getvalue())
-        self.assertEqual((run.record["state"], run.record["model"]), ("done", model))
-        self.assertAlmostEqual(run.record["time_s"], float(until.split()[0]) / 1e3)
+        self.assertEqual((run.record["state"], run.history["time_s"][0]), ("done", 0))
         self.assertAlmostEqual(run.history["time_s"][-1], run.record["time_s"])
+        self.assertEqual("opened as it is" in shown.getvalue(), run.record["time_s"] > float(until.split()[0]) / 1e3 + 1e-9)
         return run, float(times[0]) if times else None
 
-    def test_only_a_run_of_the_same_case_that_is_not_later_goes_on(self):
+    def test_resume_loses_no_run(self):
         """What is in the folder reaches 4 ms; from its checkpoint a run shows no earlier time."""
-        keys = SHORT | {"output.checkpoint_every": "1 ms"}
-        for name, begin, model, overrides, until in (
-                ("the same", None, "tfm", {}, "4 ms"), ("longer", True, "tfm", {}, "8 ms"),
-                ("other output", True, "tfm", {"output.every": "2 ms"}, "8 ms"), ("shorter", False, "tfm", {}, "2 ms"),
-                ("another model", False, "dem", {}, "8 ms"), ("another case", False, "tfm", {"inlet.superficial_velocity": 0.03}, "8 ms"),
-                ("another method", False, "tfm", {"tfm.rtol": 2e-3}, "8 ms")):
-            with self.subTest(name):
-                folder = self.folder / name
-                before = polybed.run(CASE, "tfm", keys, folder, "4 ms", quiet=True)
-                written = (folder / "run.json").stat().st_mtime_ns
-                run, first = self.begins(folder, model, keys | overrides, until)
-                self.assertEqual((folder / "run.json").stat().st_mtime_ns == written, begin is None)
-                if begin is not None:
-                    self.assertEqual(first >= 4e-3, begin)
-                    with self.assertRaises(polybed.ReplacedError):
-                        before.record  # noqa: B018  another end is another case
-                self.assertEqual(run.history["time_s"][0], 0)
+        keys, folder = SHORT | {"output.checkpoint_every": "1 ms"}, self.folder / "run"
+        before = polybed.run(CASE, "tfm", keys, folder, "4 ms", quiet=True)
+        files = program.lasting(folder)
+        for model, overrides, wrong in (("dem", {}, "contains a run by tfm"), ("tfm", {"inlet.superficial_velocity": 0.03}, "of another case"),
+                                        ("tfm", {"tfm.rtol": 2e-3}, "the checkpoint is of another case")):
+            with self.assertRaisesRegex((polybed.ProgramError, ValueError), wrong):
+                polybed.run(CASE, model, keys | overrides, folder, "8 ms", resume=True)
+        for until in ("4 ms", "2 ms"):
+            self.assertEqual(self.begins(folder, keys, until)[1], None)
+        self.assertEqual(program.lasting(folder), files)
+        for overrides, until in (({}, "6 ms"), ({"output.every": "2 ms"}, "8 ms")):
+            self.assertGreaterEqual(self.begins(folder, keys | overrides, until)[1], 4e-3)
+        with self.assertRaises(polybed.ReplacedError):
+            before.record  # noqa: B018  another end is another case
 
-    def test_a_killed_run_goes_on_and_a_failed_or_damaged_one_does_not(self):
+    def test_a_killed_or_damaged_run_goes_on_and_a_failed_one_does_not(self):
         folder, keys = self.folder / "run", SHORT | {"output.checkpoint_every": "1 ms"}
-        for state, goes_on in (("running", True), ("stopped by the user", True), ("failed: the pressure", False), (None, False)):
+        for state, goes_on in (("running", True), ("stopped by the user", True), ("failed: the pressure", False), (None, True)):
             with self.subTest(state):
                 polybed.run(CASE, "tfm", keys, folder, "4 ms", quiet=True)
                 record = strict_json((folder / "run.json").read_text())
                 (folder / "run.json").write_text(json.dumps(record | {"state": state}))
-                self.assertEqual(self.begins(folder, overrides=keys)[1] >= 4e-3, goes_on)
+                self.assertEqual(self.begins(folder, keys)[1] >= 4e-3, goes_on)
 
     def test_a_run_until_steady_is_not_that_of_a_time(self):
         """Whether it ended there, or goes on, by the record of a run."""
@@ -127,8 +129,7 @@ class Results(Scratch):
             with self.subTest(time=time, steady=steady):
                 (folder / "run.json").write_text(json.dumps(record | {"time_s": time, "card": record["card"] | {"steady": steady}}))
                 self.assertEqual((of_program.finished(folder, "tfm", text), of_program.finished(folder, "tfm", text, True)), (plain, to_steady))
-                self.assertEqual(of_program.resumable(folder, "tfm", text), time <= 4e-3)
-                self.assertTrue(of_program.resumable(folder, "tfm", text, True))
+                self.assertEqual(of_program.later(folder, "tfm", text), time if time > 4e-3 else None)
 
     def test_a_sweep_says_which_effects_differ_between_its_runs(self):
         cases = [f'[effects]\ndrag = "ergun"\n{lift}[chooser]\nchosen = ["lift", "drag"]\n' for lift in ("", 'lift = "saffman_mei"\n')]
@@ -167,6 +168,19 @@ class Results(Scratch):
         self.assertEqual(found["refused"], {"tfm": [], "dem": []})
         self.assertEqual(found["expected"]["state"], "fluidised")
         self.assertEqual(set(found["expected"]["u_mf_m_s"]), {"fine", "coarse", "mixture"})
+        self.assertEqual((list(found)[:3], list(found["expected"])[:2]), (["expected", "notes", "refused"], ["state", "bed_height_m"]))
+        told = self.ends(program.DONE, "check", CASE, "--set", "inlet.superficial_velocity=20 mm/s").stdout
+        self.assertIn("\nexpect        fluidised, about ", repr(found))
+        self.assertEqual(repr(found).splitlines()[:4], told.splitlines()[:4])
+        self.assertIn("refused: ", repr(polybed.check(CASE, {"effects.contact": "none"})))
+
+    def test_a_table_of_checks_is_a_curve_of_the_laws(self):
+        key, values = "inlet.superficial_velocity", [0.02, 0.03]
+        checks = [polybed.check(CASE, {key: value}) for value in values]
+        table = polybed.table(checks)
+        self.assertEqual((list(table[key]), list(table.index)), (values, ["check"] * 2))
+        self.assertEqual(list(table["bed_height_m"]), [one["expected"]["bed_height_m"] for one in checks])
+        self.assertEqual(list(polybed.table([self.run_short(), checks[0]])["model"]), ["tfm", "check"])
 
     def test_fields_and_profiles_are_datasets_with_units(self):
         run = self.run_short()
@@ -177,7 +191,7 @@ class Results(Scratch):
         np.testing.assert_allclose(fields.y, 0.0093 * (np.arange(30) + 0.5), rtol=1e-12)  # 30 cells of 0.279 m
         self.assertEqual(profiles.voidage.dims, ("time", "y"))
         np.testing.assert_array_equal(profiles.voidage, run.profiles["voidage"])
-        with self.assertRaisesRegex(KeyError, "there is no heat; there are fields, profiles"):
+        with self.assertRaisesRegex(KeyError, "has no heat; it has fields, profiles"):
             run.dataset("heat")
 
     def test_every_way_to_index_gives_the_numbers_of_the_run(self):
@@ -227,15 +241,18 @@ class Results(Scratch):
         found = polybed.fit(rows, output=law, bootstrap=0, quiet=True)
         self.assertEqual(found, strict_json((law / "fit.json").read_text()))
         self.assertEqual((found["form"], found["law"]), ("brinkman_oseen", str(law / "law.json")))
-        with self.assertRaisesRegex(polybed.ProgramError, "--force") as caught:
+        with self.assertRaisesRegex(polybed.ProgramError, "force=True replaces it") as caught:
             polybed.fit([rows], output=law, quiet=True)
         self.assertEqual(caught.exception.code, WRONG_CASE)
         self.assertEqual(polybed.fit([rows], "cello", law, 0, force=True, quiet=True)["form"], "cello")
 
     def test_shipped_cases_are_found_by_name(self):
         self.assertEqual(polybed.case("small-binary"), CASE)
-        with self.assertRaisesRegex(KeyError, "there is no case 'none'; there are .*small-binary"):
+        self.assertEqual(polybed.case("liquid-bed"), ROOT / "cases/templates/liquid-bed/case.toml")
+        with self.assertRaisesRegex(KeyError, "^.*cases has no none; it has .*small-binary"):
             polybed.case("none")
+        own = {"species": [{"name": "grit", "diameter": "2 mm", "density": 2650}]}
+        self.assertEqual(set(polybed.check(polybed.case("liquid-bed"), own)["expected"]["u_mf_m_s"]), {"grit", "mixture"})
 
     def test_a_scan_is_an_inversion_by_runs(self):
         found = polybed.scan(CASE, "tfm", {"output.history_every": "2 ms"}, self.folder / "scan", "0.8 s", quiet=True)

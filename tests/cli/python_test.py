@@ -50,12 +50,18 @@ class Package(Scratch):
         phi, field = run.quantity("phi_fine", "profiles"), run.quantity("phi_fine", "fields")
         self.assertEqual((phi.values.shape, phi.unit, field.values.shape), ((11, 30), "1", (11, 30, 2)))
         self.assertEqual((run.quantity("u_coarse").unit, run.quantity("p").unit), ("m/s", "Pa"))
-        with self.assertRaisesRegex(KeyError, "has no bed_heigth; did you mean bed_height.*; it has .*bed_height_m"):
+        with self.assertRaisesRegex(KeyError, "has no bed_heigth; did you mean bed_height_m"):
             run.quantity("bed_heigth")
         self.assertEqual(run.card, run.record["card"])
         with self.assertRaisesRegex(KeyError, "has no heat; it has .*bed_height_m"):
             run.quantity("heat")
         self.assertTrue(set(run.names()) > {"bed_height_m", "phi_fine", "u_fluid"})
+        self.assertEqual(run.names("fields"), run.fields)
+        self.assertRegex(repr(run.names()), "^history   bed_height_m, (.*)\nprofiles  p, phi_coarse, .*\nfields    .*, voidage$")
+        self.assertRegex(repr(height), r"^Quantity of shape \(101,\) in m, 0\.\d+ to 0\.\d+ at 0 to 0\.01 s$")
+        np.testing.assert_array_equal(1 - height / 2, 1 - run.history["bed_height_m"] / 2)
+        with self.assertRaisesRegex(AttributeError, "no field 'bed_height', only .*voidage; try run.quantity"):
+            run.bed_height  # noqa: B018
 
     def test_a_finished_run_is_opened_and_another_case_run_anew(self):
         record = self.run_short().directory / "run.json"
@@ -95,8 +101,10 @@ class Package(Scratch):
         plain = {"tfm.rtol": 1e-4, "column.cells": [2, 30], "inlet.superficial_velocity": table, "species.fine.diameter": "1 mm"}
         rich = {"tfm": {"rtol": np.float64(1e-4)}, "column": {"cells": np.array([2, 30])},
                 "inlet.superficial_velocity": np.array(table), "species": {"fine": {"diameter": "1 mm"}}}
-        self.assertEqual(package.resolved(CASE, rich, np.float64(2)), package.resolved(CASE, plain, 2))
-        self.assertNotEqual(package.resolved(CASE, plain, 2), package.resolved(CASE, {}, 2))
+        def resolved(keys, until):
+            return package.resolved(CASE, package.settings(keys, until))
+        self.assertEqual(resolved(rich, np.float64(2)), resolved(plain, 2))
+        self.assertNotEqual(resolved(plain, 2), resolved({}, 2))
         jet = {"from": [0.001], "to": [0.002], "superficial_velocity": np.int64(1)}
         self.assertEqual(package.words({"jet": (jet,)}),
                          ["--set", 'jet=[{"from" = [0.001], "to" = [0.002], "superficial_velocity" = 1}]'])
@@ -169,7 +177,7 @@ class Package(Scratch):
                 np.testing.assert_array_equal(table[name], file[name][...])
         self.assertEqual(table["p_ratio"].shape, (2, 1, 1, 1, 1))
         self.assertEqual((table.unit("p_ratio"), table.unit("phi"), table.attributes["regime"]), ("1", "1", "dry"))
-        with self.assertRaisesRegex(KeyError, "holds no heat; it holds .*p_ratio"):
+        with self.assertRaisesRegex(KeyError, "has no heat; it has .*p_ratio"):
             table.unit("heat")
         boxes = {path: path.stat().st_mtime_ns for path in (self.folder / "boxes/boxes").iterdir()}
         polybed.calibrate(ROOT / "cases/shear-box/case.toml", few, self.folder / "boxes")
@@ -196,6 +204,13 @@ class Package(Scratch):
         with self.assertRaisesRegex(polybed.ProgramError, r"(?s)^polybed\.run\(.*case\.toml.\) ended with 2.*bed.start") as caught:
             polybed.run(CASE, overrides={"bed.start": "upside down"}, output=self.folder / "none")
         self.assertEqual(caught.exception.code, WRONG_CASE)
+        with self.assertRaisesRegex(polybed.ProgramError, "ended with 2: overrides: tfm.rtl: unknown key"):
+            polybed.check(CASE, {"tfm.rtl": 1})
+        with self.assertRaisesRegex(polybed.ProgramError, "'fast': expected a number"):
+            polybed.sweep(CASE, "inlet.superficial_velocity", [0.02, "fast"], output=self.folder / "none")
+        self.assertFalse((self.folder / "none").exists(), "nothing has run")
+        with self.assertRaisesRegex(ValueError, "a sweep needs values for tfm.rtol"):
+            polybed.sweep(CASE, "tfm.rtol")
 
 
 class Gallery(Scratch):

@@ -9,6 +9,7 @@ import sys
 import tempfile
 import unittest
 from pathlib import Path
+from unittest import mock
 
 PACKAGE = Path(sys.argv[1]).resolve()
 sys.path.insert(0, str(PACKAGE))
@@ -31,19 +32,27 @@ class Bars(unittest.TestCase):
         self.assertEqual(shown_by(lambda: bar.show(2, 2)), "\rfilm [" + "#" * 40 + "] 2/2\r" + " " * len(half) + "\r")
 
     def test_runs_side_by_side_count_by_the_time_that_they_have_simulated(self):
-        bar = progress.BarOfRuns(2)
+        with mock.patch.object(progress, "redrawn", return_value=True):
+            bar = progress.BarOfRuns(2)
         one, other = (bar.hearer(n, name) for n, name in enumerate("ab"))
         self.assertIn("[" + "#" * 10 + "." * 30 + "] 0 of 2 done", shown_by(lambda: one("t 0.5/1 s, 2 s left  bed 37 mm\n")))
         self.assertIn("\na: warning: w", "\n" + shown_by(lambda: one("warning: w\n")).replace("\r", "\n"))
         self.assertEqual(shown_by(lambda: other("warning: w\n")), "", "one warning of all runs is shown once")
+        self.assertIn("w 2", shown_by(lambda: one("warning: w 2.5e-3\n")))
+        self.assertEqual(shown_by(lambda: other("warning: w 3\n")), "", "whatever its numbers are")
         self.assertEqual(shown_by(lambda: other("bed  fluidised\n")), "")
         self.assertIn("[" + "#" * 20 + "." * 20 + "] 0 of 2 done", shown_by(lambda: other("t 0.5/1 s\n")))
-        self.assertIn("[" + "#" * 30 + "." * 10 + "] 1 of 2 done", shown_by(lambda: bar.finish(0)))
-        self.assertTrue(shown_by(lambda: bar.finish(1)).endswith(" \r"), "the bar of what is done is wiped")
+        self.assertIn("[" + "#" * 30 + "." * 10 + "] 1 of 2 done", shown_by(lambda: bar.finish(0, "a")))
+        self.assertTrue(shown_by(lambda: bar.finish(1, "b")).endswith(" \r"), "the bar of what is done is wiped")
 
     def test_a_pipe_has_lines(self):
         with contextlib.redirect_stderr(io.StringIO()):
-            self.assertFalse(progress.redrawn())
+            bar = progress.BarOfRuns(2)
+        one = bar.hearer(0, "a")
+        self.assertEqual(shown_by(lambda: [one(f"t {t}/1 s\n") for t in (0, 0.1, 0.5, 0.5, 0.55)]), "runs: 25 % simulated, 0 of 2 done\n")
+        self.assertEqual(shown_by(lambda: one("warning: w\n")), "a: warning: w\n")
+        self.assertEqual(shown_by(lambda: bar.finish(0, "a")), "1 of 2 runs done: a\n")
+        self.assertEqual(shown_by(lambda: progress.BarOfRuns(1, quiet=True).finish(0, "a")), "")
 
 
 class Errors(unittest.TestCase):
