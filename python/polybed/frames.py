@@ -53,7 +53,7 @@ def table(rows: Iterable[Run | Check]) -> pd.DataFrame:
     values = {name: [row.get(name) for row in found] for name in seen}
     rest = sorted(seen, key=lambda name: (values[name].count(None) == len(each), values[name].count(values[name][0]) == len(each)))
     index = [str(getattr(one, "directory", "check")) for one in each]
-    return pd.DataFrame(found, columns=[*first, *rest], index=pd.Index(index, name="run"))
+    return pd.DataFrame(found, columns=[*first, *rest], index=pd.Index(index, name="run")).fillna(np.nan).infer_objects()  # None is no number
 
 
 def card_of(card: dict[str, Any], above: str = "") -> Iterator[tuple[str, Any]]:
