@@ -38,6 +38,8 @@ def toml(value: Value) -> str:
 
 def flat(overrides: Overrides | None, table: str = "") -> Iterator[tuple[str, Value]]:
     """(key, value) with dots in the key for each level of dictionaries: {"tfm": {"rtol": 1e-4}} is tfm.rtol."""
+    if not isinstance(overrides, Mapping | None):
+        raise TypeError(f"overrides: {overrides!r} is no dictionary of keys of the case file, {{'tfm.rtol': 1e-4}}")
     for name, value in (overrides or {}).items():
         key = f"{table}{name}"
         if isinstance(value, dict):

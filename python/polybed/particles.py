@@ -47,6 +47,12 @@ class ParticleStep:
         if name == "species" and not np.isin(whole(values, name), np.arange(len(self._particles.species))).all():
             raise ValueError(f"species are numbered beyond the {len(self._particles.species)} that particles.h5 names")
 
+    def __dir__(self):
+        return [*super().__dir__(), *self.NAMES]
+
+    def __repr__(self):
+        return f"{self.count} particles at {self.time:g} s: {', '.join(self.NAMES)}, of(species)"
+
     def __len__(self):
         return int(self.count)
 
@@ -79,7 +85,12 @@ class Particles:
     def __len__(self):
         return len(self.time)
 
+    def __repr__(self):
+        return f"Particles at {len(self)} stored times; [-1] are the last ones"
+
     def __getitem__(self, step):
+        if isinstance(step, slice):
+            return [self[n] for n in range(*step.indices(len(self)))]
         if not -len(self) <= step < len(self):
             raise IndexError(f"{self._folder.path} has {len(self)} steps of particles, none numbered {step}")
         return ParticleStep(self, step % len(self))

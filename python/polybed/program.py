@@ -38,7 +38,7 @@ Answer = TypeVar("Answer")
 
 
 # Options of the command line as arguments of the functions, in what the program says.
-IN_PYTHON = {"--set ": "overrides: ", "--until": "until", "--force": "force=True", "-o names": "output names"}
+IN_PYTHON = {"--set ": "overrides: ", "--until": "until", "--force": "force=True", "-o DIR": "output", "-o names": "output names"}
 
 
 def names_itself(function: Callable[Arguments, Answer]) -> Callable[Arguments, Answer]:
@@ -227,7 +227,8 @@ def sweep(case: Place, key: str | Mapping[str, Iterable[Value]], values: Iterabl
     """
     must_be_model(model)
     axes = {key: values} if isinstance(key, str) else key
-    each = [dict(zip(axes, point)) for point in itertools.product(*map(list, axes.values()))]
+    lists = [list(each) if isinstance(each, Iterable) and not isinstance(each, str) else [each] for each in axes.values()]
+    each = [dict(zip(axes, point)) for point in itertools.product(*lists)]
     if not each:
         raise ValueError(f"a sweep needs values for {' and '.join(axes) or 'a key'}")
     folder = Path(output) if output else Path("runs") / f"{name_of(case)}-{model}-sweep"

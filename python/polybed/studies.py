@@ -81,12 +81,19 @@ def fit(rows: Place | Sequence[Place], form: str = "brinkman_oseen", output: Pla
 
     rows: one table or several, of `polybed resolve` or of tests/data/lbm; of a folder its tab_A_*.csv
     form: "cello" or "brinkman_oseen"; bootstrap: draws for the intervals of the constants, from the number seed
-    output: default runs/<name of the rows>-fit; a fit that stands there is replaced only with force
+    output: default runs/<name of the rows>-fit; the same fit of the same rows is opened there, another one is replaced only with force
     Returns fit.json as a dictionary: "law" is the path of the law file, for {"effects.drag": "file:<law>"}; "constants" without unit,
     "interval" their 95 % intervals, "errors" in per cent of the force, "band" relative. Raises ProgramError, with code 3 if the law
     that was written breaks a constraint.
     """
-    tables = [rows] if isinstance(rows, str | os.PathLike) else list(rows)
+    tables = [Path(one) for one in ([rows] if isinstance(rows, str | os.PathLike) else rows)]
+    name = tables[0].stem if len(tables) == 1 else tables[0].parent.name or "rows"
+    found = Path(output or f"runs/{name}-fit") / "fit.json"
+    if not force and found.exists():
+        there, files = read_json(found, "polybed drag fit"), [file for one in tables for file in (one, *one.glob("tab_A_*.csv"))]
+        asked = {"rows": list(map(str, tables)), "form": form, "bootstrap": bootstrap, "seed": seed}
+        if asked.items() <= there.items() and all(file.stat().st_mtime < found.stat().st_mtime for file in files if file.exists()):
+            return there
     options: list[object] = ["--form", form, "--bootstrap", bootstrap, "--seed", seed, *(["-o", output] if output else []),
                              *(["--force"] if force else []), *([] if picture else ["--no-picture"]), *(["--quiet"] if quiet else [])]
     return answer_of("fit", *tables, *options, tell=teller(quiet))

@@ -241,6 +241,7 @@ class Results(Scratch):
         found = polybed.fit(rows, output=law, bootstrap=0, quiet=True)
         self.assertEqual(found, strict_json((law / "fit.json").read_text()))
         self.assertEqual((found["form"], found["law"]), ("brinkman_oseen", str(law / "law.json")))
+        self.assertEqual(polybed.fit([rows], output=law, bootstrap=0, quiet=True)["created"], found["created"], "it is opened")
         with self.assertRaisesRegex(polybed.ProgramError, "force=True replaces it") as caught:
             polybed.fit([rows], output=law, quiet=True)
         self.assertEqual(caught.exception.code, WRONG_CASE)
