@@ -100,6 +100,8 @@ def draw_one(run, what, time, folder, ending, rate=None, progress=None):
     """Draws one kind of picture of an open run and returns its path."""
     step = step_of(run, time)
     shown = stored_times(run)[step]
+    if what in ("fields", "particles") and what not in kinds_of(run):
+        raise StudyError(WRONG_CASE, f"--what {what}: {run.directory} holds no {what}; there are {', '.join(kinds_of(run))}")
     if what == "animation":
         return animation.film(run, folder / ("animation.mp4" if animation.has_ffmpeg() else "animation.gif"), rate, progress)
     if what == "overview":
@@ -118,10 +120,9 @@ def draw_one(run, what, time, folder, ending, rate=None, progress=None):
 def pictures(directory, what=None, time=None, out=None, ending="png", rate=None, progress=None):
     """Draws the chosen pictures of a run (all that it holds) into a folder (RUN/pictures) and returns their paths."""
     run = Snapshot(directory)
-    kinds = kinds_of(run)
-    what = kinds if what is None else what
-    if missing := [one for one in what if one not in kinds]:
-        raise StudyError(WRONG_CASE, f"--what {missing[0]}: {run.directory} holds no {missing[0]}; there are {', '.join(kinds)}")
+    what = kinds_of(run) if what is None else what
+    if unknown := set(what) - set(WHAT):
+        raise StudyError(WRONG_CASE, f"there is no picture {min(unknown)!r}; there are {', '.join(WHAT)}")
     step_of(run, time)
     folder = Path(out) if out else run.directory / "pictures"
     if folder.is_symlink() and not out:

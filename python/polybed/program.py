@@ -110,18 +110,14 @@ def finished(output: Path, model: str, text: str, to_steady: bool = False) -> bo
     return False
 
 
-def physics(text: str) -> dict[str, Any]:
-    """A resolved case without its end and its output times, which may change when a run is resumed."""
-    return {part: keys for part, keys in tomllib.loads(text).items() if part not in ("run", "output")}
-
-
 def later(output: Path, model: str, text: str) -> float | None:
     """Time of the run in a folder if that is beyond run.until of a resolved case, and the run is by this model and of this case apart from
     `run.` and `output.` keys; None otherwise."""
-    record, until = record_in(output), tomllib.loads(text)["run"]["until"]
+    record, ours = record_in(output), tomllib.loads(text)
     with contextlib.suppress(*MISFITS):
-        if record["model"] == model and physics(record["case"]) == physics(text) and record["time_s"] > until * (1 + SAME_TIME):
-            return float(record["time_s"])
+        theirs = tomllib.loads(record["case"])
+        same = record["model"] == model and all(theirs[part] == ours[part] for part in {*theirs, *ours} - {"run", "output"})
+        return float(record["time_s"]) if same and record["time_s"] > ours["run"]["until"] * (1 + SAME_TIME) else None
     return None
 
 

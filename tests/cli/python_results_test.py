@@ -34,6 +34,8 @@ class Results(Scratch):
 
     def test_the_history_is_a_frame(self):
         run = self.run_short()
+        with self.assertRaisesRegex(polybed.plot.StudyError, "there is no picture 'histroy'; there are overview, .*history"):
+            run.plot("histroy")
         frame = run.frame()
         self.assertEqual((frame.index.name, len(frame)), ("time_s", 101))
         for name in frame:
@@ -41,13 +43,13 @@ class Results(Scratch):
         self.assertEqual([frame.attrs["units"][name] for name in ("bed_height_m", "pressure_drop_Pa", "mixing")], ["m", "Pa", "1"])
 
     def test_a_grid_of_runs_is_a_table_of_keys_and_cards(self):
-        grid = {"inlet.superficial_velocity": ["20 mm/s", "30 mm/s"], "species.fine.diameter": ["0.8 mm", "0.9 mm"]}
-        runs = polybed.sweep(CASE, grid, overrides=SHORT, output=self.folder / "grid", until=UNTIL, quiet=True)
+        grid = {"inlet.superficial_velocity": ["30 mm/s", "20 mm/s"], "species.fine.diameter": ["0.8 mm", "0.9 mm"]}
+        runs = polybed.sweep(CASE, grid, overrides=SHORT, output=self.folder / "grid", until=UNTIL, quiet=True, at_once=2)
         table = polybed.table([runs[0], *(run.directory for run in runs[1:])])
         self.assertEqual(list(table.index), [str(run.directory) for run in runs])
         self.assertEqual(list(table.columns[:2]), ["species.fine.diameter", "inlet.superficial_velocity"])
-        np.testing.assert_allclose(table[list(grid)], [[u, d] for u in (0.02, 0.03) for d in (8e-4, 9e-4)], rtol=1e-12)
-        self.assertRegex(str(runs[0].directory), r"/superficial_velocity_20_mm_s__diameter_0\.8_mm-\w{10}$")
+        np.testing.assert_allclose(table[list(grid)], [[u, d] for u in (0.03, 0.02) for d in (8e-4, 9e-4)], rtol=1e-12)
+        self.assertRegex(str(runs[0].directory), r"/superficial_velocity_30_mm_s__diameter_0\.8_mm-\w{10}$")
         self.assertEqual(list(table.columns[-3:]), [name for name in table if table[name].isna().all()][-3:], "what is empty comes last")
         self.assertTrue(table.equals(polybed.table(runs).loc[table.index]))
         self.assertEqual(set(polybed.table(self.folder / "grid").index), set(table.index), "a folder stands for the runs in it")

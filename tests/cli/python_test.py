@@ -148,13 +148,6 @@ class Package(Scratch):
         self.assertRegex(done.stderr.splitlines()[-1], "^ImportError: .*h5py is missing for /usr/bin/python3: apt-get install .*python3-h5py")
         self.assertNotIn("During handling", done.stderr)
 
-    def test_a_sweep_keeps_the_order_of_its_values(self):
-        runs = polybed.sweep(CASE, "inlet.superficial_velocity", ["40 mm/s", "20 mm/s"], overrides=SHORT, output=self.folder,
-                             until=UNTIL, at_once=2)
-        self.assertEqual(len({run.directory for run in runs}), 2)
-        for run, velocity in zip(runs, ("0.04", "0.02")):
-            self.assertIn(f"[[0.0, {velocity}]]", run.record["case"])
-
     def test_a_comparison_of_given_and_of_made_runs(self):
         found = polybed.compare(CASE, tfm=self.run_short(), overrides=SHORT, until=UNTIL, output=self.folder / "both")
         self.assertEqual(found["models"]["tfm"]["directory"], str(self.folder / "run"))
