@@ -17,71 +17,18 @@
     });
   }
 
-  /** Numbers of Huffman codes by length: how many there are, and the symbols in order (RFC 1951, 3.2.2). */
-  function codes(lengths) {
-    const count = new Uint16Array(16), first = new Uint16Array(16), symbols = new Uint16Array(lengths.length);
-    for (const length of lengths) ++count[length];
-    count[0] = 0;
-    for (let n = 1; n < 16; ++n) first[n] = first[n - 1] + count[n - 1];
-    lengths.forEach((length, symbol) => { if (length) symbols[first[length]++] = symbol; });
-    return { count, symbols };
+  /** The bytes of a text from the page: base64 of zlib. */
+  async function unpacked(text) {
+    const packed = new Blob([Uint8Array.from(atob(text), c => c.charCodeAt(0))]);
+    return new Uint8Array(await new Response(packed.stream().pipeThrough(new DecompressionStream("deflate"))).arrayBuffer());
   }
 
-  const LENGTHS = [3, 4, 5, 6, 7, 8, 9, 10, 11, 13, 15, 17, 19, 23, 27, 31, 35, 43, 51, 59, 67, 83, 99, 115, 131, 163, 195, 227, 258];
-  const FAR = [1, 2, 3, 4, 5, 7, 9, 13, 17, 25, 33, 49, 65, 97, 129, 193, 257, 385, 513, 769, 1025, 1537, 2049, 3073, 4097, 6145, 8193, 12289, 16385, 24577];
-  const ORDER = [16, 17, 18, 0, 8, 7, 9, 6, 10, 5, 11, 4, 12, 3, 13, 2, 14, 1, 15];
-  const FIXED = [codes(Array.from({ length: 288 }, (_, n) => n < 144 ? 8 : n < 256 ? 9 : n < 280 ? 7 : 8)), codes(new Array(30).fill(5))];
-
-  /** The bytes of a text from the page: base64 of zlib (RFC 1950, 1951). Done here, as not every browser can. */
-  function unpacked(text) {
-    const input = Uint8Array.from(atob(text), c => c.charCodeAt(0));
-    let output = new Uint8Array(4 * input.length + 1024), size = 0, at = 2, held = 0, bits = 0, last = 0;
-    const take = count => {
-      while (bits < count) { held |= input[at++] << bits; bits += 8; }
-      const value = held & ((1 << count) - 1);
-      held >>>= count; bits -= count;
-      return value;
-    };
-    const symbol = ({ count, symbols }) => {
-      let code = 0, first = 0, index = 0;
-      for (let length = 1; length < 16; ++length) {
-        code |= take(1);
-        if (code - first < count[length]) return symbols[index + code - first];
-        index += count[length]; first = (first + count[length]) << 1; code <<= 1;
-      }
-      throw new Error("damaged data in this page");
-    };
-    const room = more => { if (size + more > output.length) { const old = output; output = new Uint8Array(2 * (size + more)); output.set(old); } };
-    function dynamic() {
-      const literals = take(5) + 257, distances = take(5) + 1, used = take(4) + 4, small = new Array(19).fill(0), lengths = [];
-      for (let n = 0; n < used; ++n) small[ORDER[n]] = take(3);
-      const table = codes(small);
-      while (lengths.length < literals + distances) {
-        const kind = symbol(table);
-        if (kind < 16) lengths.push(kind);
-        else { const [value, times] = kind === 16 ? [lengths.at(-1), 3 + take(2)] : [0, kind === 17 ? 3 + take(3) : 11 + take(7)]; for (let n = 0; n < times; ++n) lengths.push(value); }
-      }
-      return [codes(lengths.slice(0, literals)), codes(lengths.slice(literals))];
-    }
-    while (!last) {
-      last = take(1);
-      const kind = take(2);
-      if (kind === 0) {
-        held = bits = 0;
-        const length = input[at] + 256 * input[at + 1];
-        room(length); output.set(input.subarray(at + 4, at + 4 + length), size); at += 4 + length; size += length;
-        continue;
-      }
-      const [literals, distances] = kind === 1 ? FIXED : dynamic();
-      for (let value = symbol(literals); value !== 256; value = symbol(literals)) {
-        if (value < 256) { room(1); output[size++] = value; continue; }
-        const n = value - 257, length = LENGTHS[n] + take(n < 8 || n === 28 ? 0 : (n >> 2) - 1), d = symbol(distances);
-        const back = FAR[d] + take(d < 4 ? 0 : (d >> 1) - 1);
-        room(length);
-        for (let k = 0; k < length; ++k, ++size) output[size] = output[size - back];
-      }
-    }
-    return output.slice(0, size);
+  /** Puts the bytes in place of every packed text. */
+  async function unpack({ maps, profiles, particles }) {
+    const texts = maps ? maps.maps.map(map => [map, "levels"]) : [];
+    if (profiles) texts.push(...profiles.charts.flatMap(chart => chart.lines.map(line => [line, "y"])));
+    if (particles) texts.push(...["places", "speeds", "species", "radius"].map(name => [particles, name]));
+    await Promise.all(texts.map(async ([part, name]) => { part[name] = await unpacked(part[name]); }));
   }
 
   function nearest(times, time) {
@@ -182,7 +129,7 @@
     plane.width = maps.nx; plane.height = maps.ny;
     const paint = plane.getContext("2d"), image = paint.createImageData(maps.nx, maps.ny);
     for (const map of maps.maps) {
-      const level = unpacked(map.levels), table = colourTable(map.colours), figure = make("div", into);
+      const level = map.levels, table = colourTable(map.colours), figure = make("div", into);
       map.figure = figure;
       figure.className = "figure";
       make("div", figure, map.label);
@@ -223,10 +170,7 @@
       make("div", figure, `lateral mean: ${chart.title}`);
       const to = canvas(figure, width, height + 40);
       drawKey(figure, chart.lines);
-      for (const line of chart.lines) {
-        const bytes = unpacked(line.y);
-        line.levels = new Uint16Array(bytes.buffer);
-      }
+      for (const line of chart.lines) line.levels = new Uint16Array(line.y.buffer);
       draws.push(step => drawChart(to, width, height + 40, { x: [chart.low, chart.high], y: [0, top], across: "", up: `height (${unit})`,
         lines: chart.lines.map(line => {
           const found = Array.from(line.levels.subarray(step * rows, (step + 1) * rows), v => v === 65535 ? null : chart.low + v / 65534 * (chart.high - chart.low));
@@ -251,8 +195,8 @@
 
   /** Adds the particles, in a view that can be turned; returns {time, draw(step), by}. */
   function showParticles(into, all, unit) {
-    const [packed, speeds, species, radii] = [all.places, all.speeds, all.species, all.radius].map(unpacked);
-    const radius = new Float32Array(radii.buffer), count = all.count, steps = all.time.length, numbers = count * 3, total = steps * numbers;
+    const { places: packed, speeds, species, count } = all, radius = new Float32Array(all.radius.buffer);
+    const steps = all.time.length, numbers = count * 3, total = steps * numbers;
     const places = new Uint16Array(total);
     for (let n = 0; n < total; ++n) places[n] = packed[n] + 256 * packed[total + n] + (n >= numbers ? places[n - numbers] : 0);
     const size = 460, figure = make("div", into);
@@ -342,7 +286,8 @@
   let showing = 0;  // drawings so far
 
   /** Draws all; where: {time, end, kind, by} keeps what the reader has chosen when the page renews itself. */
-  function show(data, where = { end: true }) {
+  async function show(data, where = { end: true }) {
+    await unpack(data);
     const bed = document.createElement("div"), height = 400;
     const controls = make("div", bed), views = make("div", bed), rows = make("div", bed);
     controls.className = "row controls"; views.className = rows.className = "row";

@@ -41,7 +41,7 @@ FOLLOW = """(async () => {
     if (found.version !== version) {
       version = found.version;
       for (const [name, text] of Object.entries(found.html)) { const part = document.getElementById(name); if (part) part.innerHTML = text; }
-      if (found.data) window.polybedShow(found.data, where);
+      if (found.data) await window.polybedShow(found.data, where);
     }
     if (found.ended) return;
   }
