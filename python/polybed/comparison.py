@@ -3,16 +3,13 @@
 import shlex
 from pathlib import Path
 
-from polybed.page import Html, file_name, listing, markup, picture, section, source, table, warnings
-from polybed.page import page as whole_page
-
-import matplotlib.pyplot as plt
+from polybed.page import Html, file_name, listing, markup, page, picture, section, source, table, warnings
 
 from polybed.drawing import comparison as drawing
 from polybed.drawing.profiles import shown_top
-from polybed.drawing.style import NAMES, STYLE
+from polybed.drawing.style import NAMES
 from polybed.files import read_json
-from polybed.plot import record_page, stored_times
+from polybed.plot import stored_times
 from polybed.read import nearest, read
 from polybed.record import title_of_case
 from polybed.runner import words_of
@@ -138,7 +135,7 @@ def pictures(found, runs):
     return Html().join(parts)
 
 
-def page(found, path):
+def text_of(found, path):
     """The page as text."""
     runs = {model: read(found["models"][model]["directory"]) for model in ("tfm", "dem")}
     records = {model: run.record for model, run in runs.items()}
@@ -148,17 +145,10 @@ def page(found, path):
     if scan and "scan" not in scan:
         lines.append(f"{scan_path} does not hold what its scan was asked for, so that no command below makes it: scanned again, "
                      "with the runs that are there, it does")
-    with plt.rc_context(STYLE):
-        drawn = pictures(found, runs)
     again = listing(commands(found, records, scan)) + source("all numbers: " + file_name(path) + f"; program of commit {found['git_commit']}")
     body = [section("measures", "Both models", measures(found)), section("scores", "Scores", scores(found)),
             section("inversion", "Inversion velocity", inversion(scan, scan_path) if scan else ""),
-            section("pictures", "Pictures", drawn), section("cost", "Cost", models(found)), warnings(lines),
+            section("pictures", "Pictures", pictures(found, runs)), section("cost", "Cost", models(found)), warnings(lines),
             section("commands", "How to make it again", again)]
     title = title_of_case(records["tfm"]) or title_of_case(records["dem"]) or found["case"]
-    return whole_page(title, "two-fluid model and particles beside each other \u00b7 " + file_name(found["case"]), Html().join(body))
-
-
-def drawn(path, _out=None):
-    """Puts comparison.html beside a comparison.json and returns its path."""
-    return [record_page(path, "polybed comparison", page)]
+    return page(title, "two-fluid model and particles beside each other \u00b7 " + file_name(found["case"]), Html().join(body))

@@ -24,10 +24,14 @@ with needed(False):
     from polybed.particles import step_shown
     from polybed.read import Snapshot, nearest
 
-# Records of studies, each with the module whose drawn(path, out) makes pictures and a page of it and returns their paths.
-STUDIES = {"comparison.json": "polybed.comparison", "inversion.json": "polybed.drawing.inversion_scan", "cost.json": "polybed.cost.page",
-           "stability.json": "polybed.drawing.hard_cases", "closure_uncertainty.json": "polybed.drawing.closure_uncertainty",
-           "fit.json": "polybed.drawing.fit"}
+# Records of studies: kind of file, endings of the pictures, and the module with draw(record, folder) for these and, if there is a page,
+# text_of(record, path) for it.
+STUDIES = {"comparison.json": ("polybed comparison", (), "polybed.comparison"),
+           "inversion.json": ("polybed inversion", ("png",), "polybed.drawing.inversion_scan"),
+           "cost.json": ("polybed cost", ("png", "svg"), "polybed.cost.page"),
+           "stability.json": ("polybed stability", ("png", "svg"), "polybed.drawing.hard_cases"),
+           "closure_uncertainty.json": ("polybed closure uncertainty", ("png",), "polybed.drawing.closure_uncertainty"),
+           "fit.json": ("polybed drag fit", ("png",), "polybed.drawing.fit")}
 WHAT = ("overview", "fields", "particles", "profiles", "history", "animation")
 
 
@@ -42,24 +46,17 @@ def save(figure, path):
 
 
 def study_drawn(path, out=None):
-    """Draws the record of a study, in its folder or another one, and returns the paths."""
-    return importlib.import_module(STUDIES[path.name]).drawn(path, out)
-
-
-def record_drawn(path, filetype, draw, endings=("png",), out=None):
-    """Draws a record into pictures of its name, and returns their paths."""
-    found = read_json(path, filetype)
-    folder = Path(out or path.parent)
-    folder.mkdir(parents=True, exist_ok=True)
+    """Draws the record of a study, in its folder or another one, and puts its page beside the record unless the pictures are to lie
+    elsewhere. Returns the paths."""
+    filetype, endings, module = STUDIES[path.name]
+    study, found, folder = importlib.import_module(module), read_json(path, filetype), Path(out or path.parent)
+    if endings:
+        folder.mkdir(parents=True, exist_ok=True)
     with plt.rc_context(STYLE), contents_of(path):
-        return [save(draw(found), folder / f"{path.stem}.{ending}") for ending in endings]
-
-
-def record_page(path, filetype, text_of):
-    """Puts the page of a record in place whole, beside it, and returns its path."""
-    found = read_json(path, filetype)
-    with contents_of(path):
-        return put_text(path.with_suffix(".html"), text_of(found, path))
+        paths = [save(study.draw(found, path.parent), folder / f"{path.stem}.{ending}") for ending in endings]
+        if hasattr(study, "text_of") and not (paths and out):
+            paths.append(put_text(path.with_suffix(".html"), study.text_of(found, path)))
+        return paths
 
 
 def stored_times(run):

@@ -20,6 +20,7 @@ sys.path.insert(0, str(ROOT / "python"))
 import polybed  # noqa: E402
 from polybed import comparison as page  # noqa: E402
 from polybed.drawing import comparison as drawing  # noqa: E402
+from polybed.plot import study_drawn  # noqa: E402
 
 # 157 spheres of two sizes in rising water: both models take well below a second.
 BED = """[column]
@@ -295,7 +296,7 @@ class Comparison(Scratch):
         # a scan of before its request was kept has no line, and the page says so
         old = {name: value for name, value in found.items() if name not in ("scan", "from_m_s", "to_m_s", "until_s", "ranks")}
         path.write_text(json.dumps(old))
-        [written] = page.drawn(self.folder / "scanned/comparison.json")
+        [written] = study_drawn(self.folder / "scanned/comparison.json")
         text = written.read_text()
         self.assertNotIn("polybed inversion", text)
         self.assertIn("does not hold what its scan was asked for", text)

@@ -2,14 +2,11 @@
 
 import shlex
 
-import matplotlib.pyplot as plt
-
 from polybed.cost.words import REFERENCE, STATUS, in_words, part
-from polybed.drawing import cost
-from polybed.drawing.style import NAMES, STYLE
+from polybed.drawing.cost import draw, title_of
+from polybed.drawing.style import NAMES
 from polybed.drawing.units import text
 from polybed.page import Html, file_name, listing, markup, page, picture, section, source, table, warnings
-from polybed.plot import record_drawn, record_page
 from polybed.runner import words_of
 
 NONE = "\u2013"  # of a number that is not known
@@ -80,8 +77,7 @@ def shares(title, rows):
 def text_of(sweep, path):
     """The page as text."""
     measured = any(q["id"] in run["qoi"] for run in sweep["runs"] for q in sweep["qoi"] if q["shown"])
-    with plt.rc_context(STYLE):
-        drawn = picture(cost.draw(sweep) if measured else None, "all runs; " + file_name(path), "error against computing time")
+    drawn = picture(draw(sweep) if measured else None, "all runs; " + file_name(path), "error against computing time")
     overrides = [override for override in sweep["overrides"] if not override.startswith(STORED)]
     axes = next((run["settings"] for run in sweep["runs"] if run["settings"]), {})
     words = ["polybed", "cost", sweep["case_path"], *words_of(overrides), "--model", sweep["model"],
@@ -93,10 +89,4 @@ def text_of(sweep, path):
                                                                                              sweep["inputs"])),
             warnings(sweep["warnings"]), section("commands", "How to make it again", listing(shlex.join(words)))]
     under = f"accuracy and computing time, {NAMES.get(sweep['model'], sweep['model'])} \u00b7 " + file_name(sweep["case_path"])
-    return page(cost.title_of(sweep), under, Html().join(body))
-
-
-def drawn(path, out=None):
-    """Draws a sweep as PNG and SVG, makes the page beside it unless they are to lie elsewhere, and returns the paths."""
-    pictures = record_drawn(path, "polybed cost", cost.draw, ("png", "svg"), out)
-    return pictures if out else [*pictures, record_page(path, "polybed cost", text_of)]
+    return page(title_of(sweep), under, Html().join(body))

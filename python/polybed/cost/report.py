@@ -108,8 +108,8 @@ def write_sweep(sweep, of, folder, picture):
     if not picture:
         return ""
     try:
-        from polybed.cost.page import drawn  # what draws takes longer to import than all else
-        drawn(folder / "cost.json")
+        from polybed.plot import study_drawn  # what draws takes longer to import than all else
+        study_drawn(folder / "cost.json")
     except Exception as error:  # what lies in the folder is complete without its picture
         return str(error)
     return ""

@@ -4,7 +4,6 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 from polybed.drawing.style import COLOURS, GREY, PALE
-from polybed.plot import record_drawn
 from polybed.read import read
 from polybed.study.measured import centre_column, history_of, species_of
 
@@ -56,8 +55,3 @@ def draw(record, folder):
     draw_inversion(record, figure) if record["kind"] == "inversion" else draw_runs(record, folder, figure)
     figure.tight_layout()
     return figure
-
-
-def drawn(path, out=None):
-    """Writes closure_uncertainty.png beside the record of that name, and returns its path."""
-    return record_drawn(path, "polybed closure uncertainty", lambda record: draw(record, path.parent), out=out)

@@ -69,7 +69,7 @@ def draw_front(axes, sweep, quantity):
             axes.plot(chosen[0], chosen[2], "*", color=COLOURS[1], markersize=13, zorder=4, label="recommended")
 
 
-def draw(sweep):
+def draw(sweep, _folder=None):
     """The figure of a sweep as read from cost.json."""
     shown = [q for q in sweep["qoi"] if q["shown"]]
     figure, all_axes = plt.subplots(1, len(shown), figsize=(4.6 * len(shown), 3.9), squeeze=False, layout="constrained")

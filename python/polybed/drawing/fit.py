@@ -7,7 +7,6 @@ import numpy as np
 
 from polybed.drawing.style import COLOURS, GREY
 from polybed.files import read_text
-from polybed.plot import record_drawn
 
 
 def columns(path):
@@ -28,8 +27,3 @@ def draw(record, folder):
     panels[0][0].set_ylabel("error of $n_j$, %")
     figure.tight_layout()
     return figure
-
-
-def drawn(path, out=None):
-    """Writes fit.png beside a fit.json, and returns its path."""
-    return record_drawn(path, "polybed drag fit", lambda record: draw(record, path.parent), out=out)

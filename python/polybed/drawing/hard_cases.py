@@ -2,7 +2,7 @@
 
 import math
 
-from polybed.drawing.style import EMPTY, GREY, STYLE  # which chooses matplotlib's way of drawing
+from polybed.drawing.style import EMPTY, GREY  # which chooses matplotlib's way of drawing
 
 import matplotlib.pyplot as plt
 from matplotlib.colors import TwoSlopeNorm
@@ -64,26 +64,19 @@ def draw_stack(axes, cases, rows, colour_of):
     axes.spines[:].set_visible(False)
 
 
-def draw(matrix):
+def draw(matrix, _folder=None):
     """The figure of a parsed stability.json."""
     cases = {}
     for cell in matrix["cells"]:
         cases.setdefault(cell["case"], []).append(cell)
     cases, norm, colours = list(cases.items()), TwoSlopeNorm(0, LEAST, MOST), plt.get_cmap("RdYlBu_r")
     rows = math.ceil(len(cases) / STACKS)
-    with plt.rc_context(STYLE):
-        figure, stacks = plt.subplots(1, STACKS, figsize=(13.5, 1.6 + 0.17 * rows), layout="constrained")
-        for n, axes in enumerate(stacks):
-            draw_stack(axes, cases[n * rows:(n + 1) * rows], rows, lambda value: colours(norm(value)))
-            axes.set_visible(n * rows < len(cases))
-        figure.suptitle(f"hard cases, suite {matrix['suite']}, {matrix['date']}, {matrix['git_commit'][:10]}; "
-                        "hatched: refused with a reason; cross: failed; frame: not as expected", fontsize=9)
-        figure.colorbar(plt.cm.ScalarMappable(norm, colours), ax=stacks, shrink=0.4, aspect=60, location="bottom", pad=0.01,
-                        label="log10 of the worst value over its limit")
+    figure, stacks = plt.subplots(1, STACKS, figsize=(13.5, 1.6 + 0.17 * rows), layout="constrained")
+    for n, axes in enumerate(stacks):
+        draw_stack(axes, cases[n * rows:(n + 1) * rows], rows, lambda value: colours(norm(value)))
+        axes.set_visible(n * rows < len(cases))
+    figure.suptitle(f"hard cases, suite {matrix['suite']}, {matrix['date']}, {matrix['git_commit'][:10]}; "
+                    "hatched: refused with a reason; cross: failed; frame: not as expected", fontsize=9)
+    figure.colorbar(plt.cm.ScalarMappable(norm, colours), ax=stacks, shrink=0.4, aspect=60, location="bottom", pad=0.01,
+                    label="log10 of the worst value over its limit")
     return figure
-
-
-def drawn(path, out=None):
-    """Draws a stability.json and returns the paths of the pictures."""
-    from polybed.plot import record_drawn
-    return record_drawn(path, "polybed stability", draw, ("png", "svg"), out)

@@ -10,8 +10,7 @@ from polybed.page import picture as shown_picture
 import matplotlib.pyplot as plt
 import numpy as np
 
-from polybed.drawing.style import COLOURS, GREY, NAMES, PALE, STYLE
-from polybed.plot import record_drawn, record_page
+from polybed.drawing.style import COLOURS, GREY, NAMES, PALE
 from polybed.read import read
 from polybed.record import title_of_case
 from polybed.runner import words_of
@@ -24,7 +23,7 @@ def columns(scan):
     return np.array(rows).T
 
 
-def draw(found):
+def draw(found, _folder=None):
     """Mean difference of the centres over the velocity, by each model, with what was found."""
     figure, axes = plt.subplots(figsize=(6.4, 4.2), constrained_layout=True)
     factor, unit = fitting("m/s", max((run["velocity_m_s"] for scan in found["models"].values() for run in scan["runs"]), default=0))
@@ -87,9 +86,8 @@ def title_of(found):
 
 def text_of(found, path):
     """The page as text."""
-    with plt.rc_context(STYLE):
-        drawn = shown_picture(draw(found), "means over the last part of each run, with their 95 % intervals; " + file_name(path),
-                              "distance of the centres over the velocity")
+    drawn = shown_picture(draw(found), "means over the last part of each run, with their 95 % intervals; " + file_name(path),
+                          "distance of the centres over the velocity")
     first, second = found["species"]
     rows = [velocity_row(model, of) for model, of in found["models"].items()]
     balance = found["force_balance"]
@@ -103,8 +101,3 @@ def text_of(found, path):
         section("commands", "How to make it again",
                 listing(shlex.join(commands(found))) if "scan" in found else "")]
     return page(title_of(found), "inversion velocity by runs \u00b7 " + file_name(found["case"]), Html().join(body))
-
-
-def drawn(path, out=None):
-    """Makes picture and page of a scan, and returns their paths."""
-    return [*record_drawn(path, "polybed inversion", draw, out=out), *([] if out else [record_page(path, "polybed inversion", text_of)])]

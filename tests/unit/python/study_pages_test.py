@@ -11,8 +11,7 @@ sys.path.insert(0, sys.argv[1])
 
 from report_pages import EVIL, Page
 
-from polybed.drawing import inversion_scan
-from polybed.cost import page as cost_page
+from polybed.plot import study_drawn
 
 TITLE = f"title = {json.dumps(EVIL)}"
 
@@ -39,16 +38,16 @@ SCAN = {"filetype": "polybed inversion", "version": 1, "case": f"cases/{EVIL}.to
 
 
 class Pages(unittest.TestCase):
-    def written(self, name, content, write):
+    def written(self, name, content):
         with tempfile.TemporaryDirectory() as scratch:
             (Path(scratch) / name).write_text(json.dumps(content))
-            page = Page(write(Path(scratch) / name)[-1].read_text())
+            page = Page(study_drawn(Path(scratch) / name)[-1].read_text())
         self.assertEqual(page.loaded, [])
         self.assertFalse(any("onerror" in attributes for _, attributes in page.elements))
         return "".join(page.text)
 
     def test_cost(self):
-        shown = self.written("cost.json", SWEEP, cost_page.drawn)
+        shown = self.written("cost.json", SWEEP)
         for words in ("What to use", "error of at most 1 %", "relative tolerance (tfm.rtol) 0.001, cells 1x15", "error 0.4 \u00b1 0.1 %", "20 ms of computing",
                       "--set tfm.rtol=0.001", "another is cheaper and as accurate", "1 more were not run", "not measured: fluctuations of the bed"):
             self.assertIn(words, shown)
@@ -57,11 +56,11 @@ class Pages(unittest.TestCase):
 
     def test_cost_without_a_recommendation(self):
         refused = SWEEP | {"recommend": [], "outcome": "refused", "reason": "no trustworthy reference", "reference": {"kind": "", "floor": {}}}
-        shown = self.written("cost.json", refused, cost_page.drawn)
+        shown = self.written("cost.json", refused)
         self.assertIn("No recommendation: no trustworthy reference.", shown)
 
     def test_scan(self):
-        shown = self.written("inversion.json", SCAN, inversion_scan.drawn)
+        shown = self.written("inversion.json", SCAN)
         for words in ("31 mm/s \u00b1 1 mm/s", "30 mm/s to 32 mm/s", "the range is narrow enough", "force balance, without a run36 mm/s",
                       "-0.1 \u00b1 0.01", "--from '0.02 m/s'", "fine<b> and coarse change places"):
             self.assertIn(words, shown)
