@@ -1,6 +1,7 @@
 """What a sweep varies: axes, their levels, and the settings of the command line that a level stands for."""
 
 from dataclasses import dataclass, field, replace
+from functools import partial
 
 from polybed.cost.scene import LEAST_MODULUS
 from polybed.ending import WRONG_CASE, StudyError
@@ -36,8 +37,9 @@ def number_level(key, value):
     return Level(f"{value:.3g}", value, [setting(key, value)])
 
 
-def numbers(name, key, values, given, falling, beyond):
-    """An axis of these values of a key and that of the case among them."""
+def numbers(scene, _, name, key, values, falling, beyond, default=None):
+    """An axis of these values of a key and that of the case among them. falling: the less the dearer; beyond: dearer values"""
+    given = scene.of(key, default)
     levels = [number_level(key, value) for value in values]
     same = [n for n, value in enumerate(values) if abs(value - given) <= 1e-9 * abs(given)]
     behind = [n for n, value in enumerate(values) if (value < given if falling else value > given)]
@@ -52,10 +54,6 @@ def grid_level(scene, coarser):
     cells = [max(1, int(n / coarser + 0.5)) if n > 1 else n for n in scene.cells]
     overrides = [] if coarser == 1 else [f"column.cells=[{','.join(map(str, cells))}]"]
     return Level("x".join(map(str, cells)), coarser, overrides)
-
-
-def rtol_axis(scene, _):
-    return numbers("rtol", "tfm.rtol", [1e-2, 1e-3, 1e-4, 1e-5], scene.of("tfm.rtol"), True, [1e-6, 1e-7])
 
 
 def grid_axis(scene, _):
@@ -73,14 +71,6 @@ def scheme_axis(scene, _):
         elif not levels:
             levels.append(Level(other))
     return Axis("scheme", NUMERICS, levels + ([Level("upwind", 0, ["tfm.flux=upwind"])] if limited else []))
-
-
-def steps_axis(scene, _):
-    return numbers("steps", "dem.steps_per_contact", [10, 20, 50, 100], scene.of("dem.steps_per_contact"), False, [200, 400])
-
-
-def coupling_axis(scene, _):
-    return numbers("coupling", "dem.fluid_every", [50, 16, 5], scene.of("dem.fluid_every", 16), True, [2, 1])
 
 
 def window_axis(scene, _):
@@ -142,6 +132,10 @@ def level_axis(scene, model):
 def ranks_axis(*_):
     return Axis("ranks", MACHINE, [Level("1", 1), Level("2", 2, ranks=2)])
 
+
+rtol_axis = partial(numbers, name="rtol", key="tfm.rtol", values=[1e-2, 1e-3, 1e-4, 1e-5], falling=True, beyond=[1e-6, 1e-7])
+steps_axis = partial(numbers, name="steps", key="dem.steps_per_contact", values=[10, 20, 50, 100], falling=False, beyond=[200, 400])
+coupling_axis = partial(numbers, name="coupling", key="dem.fluid_every", values=[50, 16, 5], falling=True, beyond=[2, 1], default=16)
 
 # name: (models that it acts in, whether a sweep has it by default, what makes it), in the order of a sweep.
 MAKERS = {"rtol": (("tfm",), True, rtol_axis), "grid": (("tfm",), True, grid_axis), "scheme": (("tfm",), True, scheme_axis),

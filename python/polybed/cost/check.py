@@ -43,11 +43,6 @@ def scene_of(sweep):
     return now
 
 
-def confirm(path):
-    """The sweep's own file says that what it recommends was run again and held."""
-    put_text(path, read_text(path).replace('"confirmed": false', '"confirmed": true', 1))
-
-
 def run_again(sweep, advised, folder):
     """The outcome of the recommended run, done now, and what it measures."""
     with contents_of(folder / "cost.json"):
@@ -80,5 +75,5 @@ def check_recommendation(folder):
     time = Checked(claimed, outcome.rate(clock), TIME_ALLOWED * claimed)
     answer(f"{error.told(f'error of {name}', '')}\n{time.told(f'time by {clock}', 's for a simulated second')}")
     if error.holds and time.holds:
-        confirm(path)
+        put_text(path, read_text(path).replace('"confirmed": false', '"confirmed": true', 1))
     return error.holds and time.holds

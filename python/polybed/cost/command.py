@@ -3,8 +3,6 @@
 import argparse
 import os
 import re
-import sys
-from contextlib import suppress
 from pathlib import Path
 
 from polybed.cost import attribution, front
@@ -21,6 +19,7 @@ from polybed.cost.sweeper import Sweeper, common_overrides
 from polybed.program import name_of
 from polybed.runner import call, words_of
 from polybed.study import output_folder
+from polybed.study.record import remark
 from polybed.ending import DONE, FILE, NUMBERS, WRONG_CASE, StudyError, answer, guarded
 
 SECONDS = {"us": 1e-6, "ms": 1e-3, "s": 1.0, "min": 60.0, "h": 3600.0}
@@ -143,8 +142,7 @@ def sweep(given):
         no_picture = write_sweep(found, of, folder, given.picture)
         answer(sweep_json(found, of) if given.json else f"{sweep_markdown(found, of)}\n{folder / 'cost.json'}")
     if no_picture:
-        with suppress(OSError):
-            print(f"no picture: {no_picture}", file=sys.stderr)
+        remark(f"no picture: {no_picture}")
     return found.outcome == "done"
 
 

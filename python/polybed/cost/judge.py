@@ -5,7 +5,7 @@ from math import hypot
 from polybed.cost.axes import NUMERICS
 from polybed.cost.fit import Priced, pareto_front
 from polybed.cost.quantities import LENGTH, SHARE
-from polybed.cost.sweep import CANDIDATE, REFERENCE, Recommendation, RowQuantity
+from polybed.cost.sweep import CANDIDATE, REFERENCE, RowQuantity
 from polybed.cost.words import in_words, part
 from polybed.study.measured import means_of
 
@@ -77,18 +77,12 @@ def unranked_status(row):
 
 def recommend(sweep):
     """The cheapest row whose error is within the target, interval included."""
-    best = None
-    for n, row in enumerate(sweep.rows):
-        quantity = ranked(sweep, row)
-        if quantity is None or quantity.error + (quantity.error_interval or 0) > sweep.options.target:
-            continue
-        # Below a floor that lies above the target nothing is known of the error.
-        if is_hollow(sweep, quantity) and sweep.reference.floor.get(sweep.ranking, 0) > sweep.options.target:
-            continue
-        if best is None or row.rate < sweep.rows[best].rate:
-            best = n
-    if best is not None:
-        sweep.recommendation = Recommendation(sweep.options.target, best)
+    target = sweep.options.target
+    high_floor = sweep.reference.floor.get(sweep.ranking, 0) > target  # below it nothing is known of an error
+    quantities = [ranked(sweep, row) for row in sweep.rows]
+    within = [n for n, quantity in enumerate(quantities) if quantity and quantity.error + (quantity.error_interval or 0) <= target
+              and not (high_floor and is_hollow(sweep, quantity))]
+    sweep.recommended = min(within, key=lambda n: sweep.rows[n].rate, default=None)
 
 
 def rank(sweep):
@@ -134,9 +128,9 @@ def given_row(sweep):
 
 def recommendation_text(sweep):
     name, target = sweep.ranking, percent(sweep.options.target)
-    if not sweep.recommendation:
+    if sweep.recommended is None:
         return f"No run has an error of at most {target} in {name}, its interval included."
-    row = sweep.rows[sweep.recommendation.row]
+    row = sweep.rows[sweep.recommended]
     quantity = row.quantities[name]
     within = f" +- {percent(quantity.error_interval)}" if quantity.error_interval else ""
     text = (f"For an error of at most {target} in {name} use {settings_text(sweep, row)}: its error is {percent(quantity.error)}{within}, "

@@ -20,7 +20,7 @@ def cell_of(row, name):
 def status_of(sweep, number):
     """How much dearer a dominated row is than the cheapest that is at least as accurate; whether a row is recommended."""
     row = sweep.rows[number]
-    if sweep.recommendation and sweep.recommendation.row == number:
+    if sweep.recommended == number:
         return f"**recommended** for {100 * sweep.options.target:.2g} % in {sweep.ranking}"
     if row.kind == KIND_REFERENCE and row.done:
         return "reference"

@@ -45,10 +45,6 @@ def finite(value):
     return value if value is not None and isfinite(value) else None
 
 
-def in_order(found):
-    return {name: found[name] for name in sorted(found)}
-
-
 def settings_of(sweep, row):
     return {"settings": {axis.name: axis.levels[level_of(row, axis)].label for axis in sweep.axes} if row.settings else {},
             "note": row.note, "model": row.order.model, "ranks": row.order.ranks, "overrides": row.order.overrides}
@@ -57,21 +53,20 @@ def settings_of(sweep, row):
 def row_json(sweep, row):
     outcome = row.outcome
     quantities = {name: {"value": q.value, "ci": finite(q.interval), "error": q.error, "error_ci": finite(q.error_interval)}
-                  for name, q in in_order(row.quantities).items()}
+                  for name, q in sorted(row.quantities.items())}
     predicted = {"predicted": {"error": row.predicted.error, "cost": row.predicted.cost}} if row.predicted else {}
-    return {"kind": row.kind, **settings_of(sweep, row), "work": in_order(outcome.counters), "work_s": weighed(outcome.counters),
+    return {"kind": row.kind, **settings_of(sweep, row), "work": dict(sorted(outcome.counters.items())), "work_s": weighed(outcome.counters),
             "simulated_s": outcome.simulated, "s_per_sim_s": row.rate, "cpu_s": [outcome.cpu], "wall_s": [outcome.wall], "qoi": quantities,
             **predicted, "status": row.status, "reason": outcome.reason}
 
 
 def recommendation_json(sweep):
-    if not sweep.recommendation:
+    if sweep.recommended is None:
         return []
-    row = sweep.rows[sweep.recommendation.row]
+    row = sweep.rows[sweep.recommended]
     quantity = row.quantities[sweep.ranking]
-    return [{"target": sweep.recommendation.target, "qoi": sweep.ranking, "run": sweep.recommendation.row, **settings_of(sweep, row),
-             "error": quantity.error, "ci": finite(quantity.error_interval), "s_per_sim_s": row.rate,
-             "confirmed": sweep.recommendation.confirmed}]
+    return [{"target": sweep.options.target, "qoi": sweep.ranking, "run": sweep.recommended, **settings_of(sweep, row),
+             "error": quantity.error, "ci": finite(quantity.error_interval), "s_per_sim_s": row.rate, "confirmed": False}]
 
 
 def shares_json(shares):
@@ -83,7 +78,7 @@ def shares_json(shares):
 def sweep_json(sweep, of):
     """cost.json. Raises StudyError if a number is not finite."""
     laws = {f"{what}_of_{axis}": sweep.laws.get(f"{what}_of_{axis}") for axis in ("rtol", "grid") for what in ("error", "cost")}
-    reference = {name: {key: value for key, value in in_order(getattr(sweep.reference, name)).items() if isfinite(value)}
+    reference = {name: {key: value for key, value in sorted(getattr(sweep.reference, name).items()) if isfinite(value)}
                  for name in ("floor", "value", "band")}
     quantities = [q._asdict() | {"scale": scale_of(sweep, q.id), "shown": q.id in sweep.options.quantities} for q in sweep.quantities]
     found = {
@@ -102,9 +97,8 @@ def sweep_json(sweep, of):
 
 def write_sweep(sweep, of, folder, picture):
     """All of them. Returns why there is no picture, if one was asked for."""
-    texts = {"cost.json": sweep_json(sweep, of) + "\n", "cost.md": sweep_markdown(sweep, of)}
-    for name, text in texts.items():
-        put_text(folder / name, text)
+    put_text(folder / "cost.json", sweep_json(sweep, of) + "\n")
+    put_text(folder / "cost.md", sweep_markdown(sweep, of))
     if not picture:
         return ""
     try:

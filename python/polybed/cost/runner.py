@@ -2,6 +2,7 @@
 that were done."""
 
 import json
+import math
 import re
 from contextlib import suppress
 from dataclasses import dataclass, field
@@ -79,9 +80,7 @@ class Runner:
 
     def __init__(self, scene, overrides, folder, resume):
         self.scene, self.overrides, self.folder, self.resume = scene, list(overrides), folder, resume
-        self.cells = 1
-        for n in scene.cells:
-            self.cells *= n
+        self.cells = math.prod(scene.cells)
         self.seen = set()
         self.spent = 0.0  # s, wall time of all runs that stand for this sweep: those found there count as if they had been done now
 

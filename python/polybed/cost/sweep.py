@@ -69,13 +69,6 @@ class Share:
 
 
 @dataclass
-class Recommendation:
-    target: float
-    row: int
-    confirmed: bool = False
-
-
-@dataclass
 class Sweep:
     options: SweepOptions
     axes: list = field(default_factory=list)
@@ -90,7 +83,7 @@ class Sweep:
     additive_off: float | None = None
     attribution: list = field(default_factory=list)
     inputs: list = field(default_factory=list)
-    recommendation: Recommendation | None = None
+    recommended: int | None = None  # number of a row
     warnings: list = field(default_factory=list)
 
     @property

@@ -1,8 +1,5 @@
 """The course of a sweep: its runs, and what they may take."""
 
-import sys
-from contextlib import suppress
-
 import numpy as np
 
 from polybed.cost.axes import MACHINE, MODEL, NUMERICS, axes_of, setting
@@ -12,6 +9,7 @@ from polybed.cost.runner import RunOrder, RunOutcome
 from polybed.cost.sweep import CANDIDATE, TWIN, Row, Sweep
 from polybed.ending import WRONG_CASE, StudyError
 from polybed.study.measured import TimeMean, centre_column, species_of, within
+from polybed.study.record import remark
 
 WINDOW_BEGIN = 0.75  # of the run: the last quarter
 OVERDRAFT = 1.08  # of the budget, which is kept to a tenth
@@ -69,8 +67,7 @@ class Sweeper:
 
     def tell(self, text):
         if not self.sweep.options.quiet:
-            with suppress(OSError):
-                print(f"{self.runner.spent:7.1f} s  {text}", file=sys.stderr, flush=True)
+            remark(f"{self.runner.spent:7.1f} s  {text}")
 
     def left(self):
         return OVERDRAFT * self.sweep.options.budget - self.runner.spent
