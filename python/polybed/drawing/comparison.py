@@ -8,7 +8,7 @@ import numpy as np
 
 from polybed.drawing import particles
 from polybed.drawing.fields import fractions
-from polybed.drawing.maps import draw_bar, draw_map, frame, map_size
+from polybed.drawing.maps import axes_at, draw_bar, draw_map, frame, map_size
 from polybed.drawing.profiles import shown_top
 from polybed.drawing.style import COLOURS, GREY, NAMES, PALE, length_unit
 from polybed.read import nearest
@@ -50,20 +50,19 @@ def draw_instant(runs, time, top):
         return None
     wide, high = map_size(panels[0][1], top, MAP_HEIGHT)
     wide = max(wide, 1.25)  # room for a title
-    width, height = LEFT + len(panels) * (wide + GAP), HEAD + high + BARS
-    figure = plt.figure(figsize=(width, height))
+    figure = plt.figure(figsize=(LEFT + len(panels) * (wide + GAP), HEAD + high + BARS))
     for n, (kind, run, title, shown, group) in enumerate(panels):
-        left = (LEFT + n * (wide + GAP)) / width
-        axes = figure.add_axes((left, BARS / height, wide / width, high / height))
+        left = LEFT + n * (wide + GAP)
+        axes = axes_at(figure, left, BARS, wide, high)
         if kind == "map":
             mesh = draw_map(axes, run, group, title, shown, top, first=n == 0)
         else:
             frame(axes, run, title, top, first=n == 0)
             particles.circles(axes, run, shown, particles.species_colours(run, shown))
-            particles.name_species(figure.add_axes((left, 0.3 / height, wide / width, 0.1 / height)), run)
+            particles.name_species(axes_at(figure, left, 0.3, wide, 0.1), run)
         axes.set_title(title, fontsize=8)
     if panels[0][0] == "map":
-        draw_bar(figure, mesh, figure.add_axes((LEFT / width, 0.38 / height, wide / width, 0.1 / height)), panels[0][4])
+        draw_bar(mesh, axes_at(figure, LEFT, 0.38, wide, 0.1), panels[0][4])
     return figure
 
 

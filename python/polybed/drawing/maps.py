@@ -30,11 +30,17 @@ class Group:
         return {"cmap": colours, "vmin": self.limits[0], "vmax": self.limits[1]}
 
 
-def map_size(run, top, most):
+def map_size(run, top, most, widths=WIDTHS):
     """Width and height of one map, inches."""
     aspect = width_of(run) / top
-    width = float(np.clip(most * aspect, *WIDTHS))
+    width = float(np.clip(most * aspect, *widths))
     return width, min(most, width / aspect)
+
+
+def axes_at(figure, left, bottom, width, height):
+    """Axes at a place in inches."""
+    across, high = figure.get_size_inches()
+    return figure.add_axes((left / across, bottom / high, width / across, height / high))
 
 
 def walls_of(run):
@@ -84,13 +90,19 @@ def draw_map(axes, run, group, title, values, top, first):
     return mesh
 
 
-def draw_bar(figure, mesh, axes, group):
-    """The colour scale of a group, below its maps, with the ends and the middle told."""
-    bar = figure.colorbar(mesh, cax=axes, orientation="horizontal")
-    low, high = group.limits
-    bar.set_ticks([low, (low + high) / 2, high], labels=[f"{value:.3g}" for value in (low, (low + high) / 2, high)])
-    bar.set_label(group.label)
+def draw_scale(axes, colours, ticks, labels, title, extend="neither", **words):
+    """A colour scale. extend: as of matplotlib; words: how the title is written"""
+    bar = axes.figure.colorbar(colours, cax=axes, orientation="horizontal", extend=extend)
+    bar.set_ticks(ticks, labels=labels)
+    bar.set_label(title, **words)
     bar.outline.set_linewidth(0.5)
+
+
+def draw_bar(mesh, axes, group):
+    """The colour scale of a group, below its maps, with the ends and the middle told."""
+    low, high = group.limits
+    ticks = [low, (low + high) / 2, high]
+    draw_scale(axes, mesh, ticks, [f"{value:.3g}" for value in ticks], group.label)
 
 
 def wrapped(groups, width):
@@ -117,10 +129,6 @@ def draw_maps(run, groups, title, top):
     width = max(LEFT + max(span) + RIGHT, 4.2)
     height = HEAD + len(rows) * (size[1] + BARS) + (len(rows) - 1) * 0.35
     figure = plt.figure(figsize=(width, height))
-
-    def place(x, y, w, h):
-        return figure.add_axes((x / width, y / height, w / width, h / height))
-
     meshes, base = [], height - HEAD
     for row in rows:
         base -= size[1]
@@ -130,9 +138,9 @@ def draw_maps(run, groups, title, top):
             meshes.append([])
             for n, (name, values) in enumerate(group.maps):
                 first = number == 0 and n == 0
-                meshes[-1].append(draw_map(place(x, base, *size), run, group, name, values, top, first))
+                meshes[-1].append(draw_map(axes_at(figure, x, base, *size), run, group, name, values, top, first))
                 x += size[0] + GAP
-            draw_bar(figure, meshes[-1][0], place(begin, base - 0.6, x - GAP - begin, 0.1), group)
+            draw_bar(meshes[-1][0], axes_at(figure, begin, base - 0.6, x - GAP - begin, 0.1), group)
             x += GROUP_GAP - GAP
         base -= BARS + 0.35
     figure.suptitle(fitted(title, figure, 10), y=1 - 0.12 / height, fontsize=10)

@@ -1,16 +1,16 @@
 """picture.png of a run, the one that a run draws at its end: maps, profiles and history in one."""
 
 import matplotlib.pyplot as plt
-import numpy as np
 
 from polybed.drawing import particles
 from polybed.drawing.fields import fractions, thin_apart, voidages
-from polybed.drawing.maps import draw_map, frame
-from polybed.drawing.style import GREY, PALE, fitted, length_unit, shown_height, species_line, title_of, width_of
+from polybed.drawing.maps import axes_at, draw_map, draw_scale, frame, map_size
+from polybed.drawing.style import GREY, PALE, fitted, length_unit, shown_height, species_line, title_of
 from polybed.read import nearest
 
 MAP_HEIGHT = 5.2  # inches
 MAP_WIDTHS = (0.9, 3.4)  # inches, least and most
+LEFT, GAP, PROFILE, RIGHT, HEAD, BARS, HISTORY, LEGEND = 0.75, 0.45, 2.0, 0.25, 0.75, 0.95, 1.9, 1.9  # inches
 SUSPENDED = 1.2  # times the top of the dense bed: above that the card, too, shows both heights
 
 
@@ -58,64 +58,40 @@ def draw_history(axes, run, time):
     axes.legend(loc="center left", bbox_to_anchor=(1.01, 0.5), fontsize=8)
 
 
-class Layout:
-    """Positions in inches: maps and profiles in a row, colour bars below them, the history last."""
-
-    LEFT, GAP, PROFILE, RIGHT, HEAD, BARS, HISTORY, LEGEND = 0.75, 0.45, 2.0, 0.25, 0.75, 0.95, 1.9, 1.9
-
-    def __init__(self, maps, width_over_height):
-        self.map_width = float(np.clip(MAP_HEIGHT * width_over_height, *MAP_WIDTHS))
-        self.map_height = min(MAP_HEIGHT, self.map_width / width_over_height)
-        self.maps = maps
-        row = self.LEFT + maps * (self.map_width + self.GAP) + self.PROFILE + self.RIGHT
-        self.width = max(row, 7.0)
-        self.height = self.HEAD + self.map_height + self.BARS + self.HISTORY
-        self._start = self.LEFT + (self.width - row) / 2
-        self._base = self.HISTORY + self.BARS
-        self.figure = plt.figure(figsize=(self.width, self.height))
-
-    def _axes(self, x, y, width, height):
-        return self.figure.add_axes((x / self.width, y / self.height, width / self.width, height / self.height))
-
-    def _left(self, n):
-        return self._start + n * (self.map_width + self.GAP)
-
-    def map(self, n):
-        return self._axes(self._left(n), self._base, self.map_width, self.map_height)
-
-    def bar(self, n):
-        return self._axes(self._left(n), self._base - 0.62, self.map_width, 0.1)
-
-    def profile(self):
-        return self._axes(self._left(self.maps), self._base, self.PROFILE, self.map_height)
-
-    def history(self):
-        return self._axes(self.LEFT, 0.5, self.width - self.LEFT - self.LEGEND, self.HISTORY - 0.75)
+def layout_of(count, size):
+    """A figure with so many maps of a size in inches: the figure, maps, their colour bars, profiles beside the maps, history below all."""
+    width, height = size
+    row = LEFT + count * (width + GAP) + PROFILE + RIGHT
+    across = max(row, 7.0)
+    figure = plt.figure(figsize=(across, HEAD + height + BARS + HISTORY))
+    *places, last = (LEFT + (across - row) / 2 + n * (width + GAP) for n in range(count + 1))
+    base = HISTORY + BARS
+    maps = [axes_at(figure, left, base, width, height) for left in places]
+    bars = [axes_at(figure, left, base - 0.62, width, 0.1) for left in places]
+    profile = axes_at(figure, last, base, PROFILE, height)
+    return figure, maps, bars, profile, axes_at(figure, LEFT, 0.5, across - LEFT - LEGEND, HISTORY - 0.75)
 
 
-def draw_fields(run, step, layout, top):
+def draw_fields(run, step, maps, bars, top):
     """Volume fractions of the species and of the fluid."""
     groups = (*thin_apart(fractions(run, step, classes=False)), voidages(run, step))
     for n, (group, name, values) in enumerate((group, *entry) for group in groups for entry in group.maps):
-        mesh = draw_map(layout.map(n), run, group, name, values, top, first=n == 0)
-        bar = layout.figure.colorbar(mesh, cax=layout.bar(n), orientation="horizontal")
-        bar.set_ticks(group.limits, labels=[f"{limit:.2g}" for limit in group.limits])
-        bar.set_label(group.label, fontsize=8, labelpad=1)
-        bar.outline.set_linewidth(0.5)
+        mesh = draw_map(maps[n], run, group, name, values, top, first=n == 0)
+        draw_scale(bars[n], mesh, group.limits, [f"{limit:.2g}" for limit in group.limits], group.label, fontsize=8, labelpad=1)
 
 
-def draw_particles(run, step, layout, top):
+def draw_particles(run, step, maps, bars, top):
     """The particles by species and by speed."""
     shown = run.particles[step]
     end, beyond = particles.fastest([shown])
     colours = particles.species_colours(run, shown), particles.speed_colours(shown, end)
     for n, title in enumerate(("species", "speed")):
-        axes = layout.map(n)
-        frame(axes, run, title, top, first=n == 0)
-        particles.circles(axes, run, shown, colours[n])
-    particles.name_species(layout.bar(0), run)
-    particles.speed_bar(layout.figure, layout.bar(1), end, beyond)
-    layout.figure.text(0.5, 1 - 0.36 / layout.height, particles.thinned(run, shown), ha="center", va="top", fontsize=7)
+        frame(maps[n], run, title, top, first=n == 0)
+        particles.circles(maps[n], run, shown, colours[n])
+    particles.name_species(bars[0], run)
+    particles.speed_bar(bars[1], end, beyond)
+    figure = maps[0].figure
+    figure.text(0.5, 1 - 0.36 / figure.get_figheight(), particles.thinned(run, shown), ha="center", va="top", fontsize=7)
 
 
 def draw(run, step):
@@ -124,12 +100,11 @@ def draw(run, step):
         time, top, count, draw_bed = run.particles.time[step], particles.shown_top(run, [step]), 2, draw_particles
     else:
         time, top, count, draw_bed = run.time[step], shown_height(run, [step]), len(run.kinds) + 1, draw_fields
-    layout = Layout(count, width_of(run) / top)
-    draw_bed(run, step, layout, top)
-    profile = layout.profile()
+    figure, maps, bars, profile, history = layout_of(count, map_size(run, top, MAP_HEIGHT, MAP_WIDTHS))
+    draw_bed(run, step, maps, bars, top)
     draw_profiles(profile, run, time)
     profile.set_ylim(0, top * length_unit(run)[0])
-    draw_history(layout.history(), run, time)
+    draw_history(history, run, time)
     title = title_of(run, time, maps=draw_bed is draw_fields)
-    layout.figure.suptitle(fitted(title, layout.figure, 11), y=1 - 0.22 / layout.height, fontsize=11)
-    return layout.figure
+    figure.suptitle(fitted(title, figure, 11), y=1 - 0.22 / figure.get_figheight(), fontsize=11)
+    return figure

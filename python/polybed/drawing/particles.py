@@ -6,7 +6,7 @@ from matplotlib.collections import EllipseCollection
 from matplotlib.colors import Normalize
 from matplotlib.lines import Line2D
 
-from polybed.drawing.maps import BARS, GAP, HEAD, HEIGHT, LEFT, RIGHT, frame, map_size
+from polybed.drawing.maps import BARS, GAP, HEAD, HEIGHT, LEFT, RIGHT, axes_at, draw_scale, frame, map_size
 from polybed.drawing.style import COLOURS, fitted, length_unit, title_of
 from polybed.drawing.units import fitting
 
@@ -100,14 +100,12 @@ def name_species(axes, run):
     axes.set_axis_off()
 
 
-def speed_bar(figure, axes, end, beyond):
+def speed_bar(axes, end, beyond):
     """The scale of speeds beneath a view."""
-    mapped = plt.cm.ScalarMappable(Normalize(0, end), "viridis")
-    bar = figure.colorbar(mapped, cax=axes, orientation="horizontal", extend="max" if beyond else "neither")
     factor, unit = fitting("m/s", end / 1e3)
-    bar.set_ticks([0, end / 2, end], labels=[f"{value / 1e3 * factor:.3g}" for value in (0, end / 2, end)])
-    bar.set_label(f"speed ({unit})")
-    bar.outline.set_linewidth(0.5)
+    ticks, mapped = [0, end / 2, end], plt.cm.ScalarMappable(Normalize(0, end), "viridis")
+    labels = [f"{value / 1e3 * factor:.3g}" for value in ticks]
+    draw_scale(axes, mapped, ticks, labels, f"speed ({unit})", extend="max" if beyond else "neither")
 
 
 class Views:
@@ -123,12 +121,12 @@ class Views:
         self.figure = plt.figure(figsize=(across, high))
         rows = (BARS, height), (BARS - 0.6, 0.1)
         places = [(start + n * (width + GAP), base, width, tall) for base, tall in rows for n in (0, 1)]
-        axes = [self.figure.add_axes((x / across, y / high, w / across, h / high)) for x, y, w, h in places]
+        axes = [axes_at(self.figure, *place) for place in places]
         self.views = axes[:2]
         for n, title in enumerate(("species", "speed")):
             frame(axes[n], run, title, self.top, first=n == 0)
         name_species(axes[2], run)
-        speed_bar(self.figure, axes[3], self.end, beyond)
+        speed_bar(axes[3], self.end, beyond)
         self.title = self.figure.suptitle("", y=1 - 0.16 / high, fontsize=10)
         self.note = self.figure.text(0.5, 1 - 0.34 / high, "", ha="center", va="top", fontsize=7)
         self.drawn = []
