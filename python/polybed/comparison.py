@@ -56,7 +56,6 @@ SCORES = {"e_H": "bed height: two-fluid model over particles, less 1",
 
 
 def score_words(name):
-    """What a score says, in words."""
     if name.startswith("profile_"):
         return f"vertical profile of {name[len('profile_'):]}: difference of the models over height, over that of the particles"
     return SCORES.get(name, name)
@@ -136,7 +135,6 @@ def pictures(found, runs):
 
 
 def text_of(found, path):
-    """The page as text."""
     runs = {model: read(found["models"][model]["directory"]) for model in ("tfm", "dem")}
     records = {model: run.record for model, run in runs.items()}
     scan_path = Path(found["inversion_file"]) if "inversion_file" in found else None

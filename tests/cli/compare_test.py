@@ -18,9 +18,8 @@ from program import DONE, FILE, ROOT, STOPPED, WRONG_CASE, TWO_IN_WATER, Scratch
 
 sys.path.insert(0, str(ROOT / "python"))
 import polybed  # noqa: E402
-from polybed import comparison as page  # noqa: E402
+from polybed import comparison as page, plot  # noqa: E402
 from polybed.drawing import comparison as drawing  # noqa: E402
-from polybed.plot import study_drawn  # noqa: E402
 
 # 157 spheres of two sizes in rising water: both models take well below a second.
 BED = """[column]
@@ -296,7 +295,7 @@ class Comparison(Scratch):
         # a scan of before its request was kept has no line, and the page says so
         old = {name: value for name, value in found.items() if name not in ("scan", "from_m_s", "to_m_s", "until_s", "ranks")}
         path.write_text(json.dumps(old))
-        [written] = study_drawn(self.folder / "scanned/comparison.json")
+        [written] = plot.study_drawn(self.folder / "scanned/comparison.json")
         text = written.read_text()
         self.assertNotIn("polybed inversion", text)
         self.assertIn("does not hold what its scan was asked for", text)

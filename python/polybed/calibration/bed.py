@@ -3,6 +3,7 @@
 import math
 
 from polybed.calibration.fit import Table, grouped, mean_of_seeds
+from polybed.calibration.output import columns, mean_text
 from polybed.ending import NUMBERS, StudyError
 
 AGREEMENT = 0.05  # what both measures of the pressure may differ by
@@ -42,20 +43,14 @@ def require_usable(table):
 
 
 def bed_lines(boxes):
-    """One line for each box, for people."""
-    lines = f"{'planned':>8} {'phi':>8} {'seed':>5} {'p_bed by slabs':>20} {'by balance':>20} {'slabs/balance':>12}\n"
-    for box in boxes:
-        slabs, balance = (f"{mean:.4g}+-{error:.1g}" for mean, error in (box["p_bed"], box["p_bed_by_balance"]))
-        lines += (f"{box['solids_fraction']:>8g} {box['bed_phi']:>8.4f} {box['seed']:>5} {slabs:>20} {balance:>20} "
-                  f"{box['p_bed'][0] / box['p_bed_by_balance'][0]:>12.3f}\n")
-    return lines
+    head = (("planned", 8), ("phi", 8), ("seed", 5), ("p_bed by slabs", 20), ("by balance", 20), ("slabs/balance", 12))
+    return columns(head, [[f"{box['solids_fraction']:g}", f"{box['bed_phi']:.4f}", box["seed"], mean_text(*box["p_bed"]),
+                           mean_text(*box["p_bed_by_balance"]), f"{box['p_bed'][0] / box['p_bed_by_balance'][0]:.3f}"] for box in boxes])
 
 
 def bed_rows(table):
-    """One line for each row of the table, for people."""
-    lines = f"{'mm/s':>8} {'phi':>8} {'p_bed by slabs':>20} {'by balance':>20} {'difference':>12} {'theta':>8}\n"
-    for row, velocity, theta in zip(rows(table), table["velocity"], table["theta_bed"]):
-        phi, slabs, slabs_error, balance, balance_error = row
-        lines += (f"{1e3 * velocity:>8.3f} {phi:>8.4f} {f'{slabs:.4g}+-{slabs_error:.1g}':>20} {f'{balance:.4g}+-{balance_error:.1g}':>20} "
-                  f"{f'{100 * (balance / slabs - 1):+.1f} %':>12} {theta:>8.3g}\n")
-    return lines
+    head = (("mm/s", 8), ("phi", 8), ("p_bed by slabs", 20), ("by balance", 20), ("difference", 12), ("theta", 8))
+    each = zip(rows(table), table["velocity"], table["theta_bed"])
+    return columns(head, [[f"{1e3 * velocity:.3f}", f"{phi:.4f}", mean_text(slabs, slabs_error), mean_text(balance, balance_error),
+                           f"{100 * (balance / slabs - 1):+.1f} %", f"{theta:.3g}"]
+                          for (phi, slabs, slabs_error, balance, balance_error), velocity, theta in each])

@@ -2,6 +2,7 @@
 
 import math
 
+from polybed.calibration.output import columns
 from polybed.calibration.plan import Point
 
 SEED = 1001  # one that no plan has
@@ -31,8 +32,8 @@ def deviation(box, ratios, inertia):
 
 def deviation_lines(points, deviations):
     """For people, with how many standard errors each is."""
-    lines = f"{'phi':>6} {'St':>6} {'p, box over table':>24} {'mu, box over table':>24}\n"
-    for point, both in zip(points, deviations):
-        p, mu = (f"{100 * off:+.1f} % +- {100 * error:.1f} ({abs(off) / error if error else math.inf:.1f} se)" for off, error in both)
-        lines += f"{point.phi:>6.4g} {point.stokes:>6.4g} {p:>24} {mu:>24}\n"
-    return lines
+    def told(off, error):
+        return f"{100 * off:+.1f} % +- {100 * error:.1f} ({abs(off) / error if error else math.inf:.1f} se)"
+
+    head = (("phi", 6), ("St", 6), ("p, box over table", 24), ("mu, box over table", 24))
+    return columns(head, [[f"{point.phi:.4g}", f"{point.stokes:.4g}", told(*p), told(*mu)] for point, (p, mu) in zip(points, deviations)])

@@ -125,7 +125,6 @@ def tested_by(table, plan):
 
 
 def tested_lines(tested):
-    """The same for people."""
     error, residual, left_out = (None if share is None else f"{100 * share:.2f} %" for share in tested.values())
     return ["standard errors not known: one box at each point" if error is None else f"standard errors up to {error}",
             "fit not tested: too few solids fractions to leave one out" if left_out is None else

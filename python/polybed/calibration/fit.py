@@ -40,7 +40,6 @@ class Table:
         return self.arrays[name].reshape(len(self.arrays["phi"]), -1).T
 
     def write(self, path):
-        """Writes the file, with its checksum."""
         with h5py.File(path, "w") as file:
             for name, values in self.arrays.items():
                 file[name] = np.asarray(values, float)
@@ -105,10 +104,8 @@ def fitted(plan, boxes):
     if plan.regime == "wet" and len(axes["stokes"]) > 1:  # of the first restitution, friction and share
         inertia = fitted_inertia(axes["stokes"], np.reshape(plain, (len(axes["phi"]), len(axes["stokes"]), -1))[:, :, 0].tolist())
     table = Table(axes, {"regime": plan.regime, "reference": plan.case["reference"], "lambda": inertia})
-    per = [1 / (1 + inertia * point.stokes) for point in plan.points()]
-    add_means(table, "p_ratio", "p_ratio", points, per)
-    add_means(table, "mu_ratio", "mu_ratio", points, per)
-    add_means(table, "gamma_ratio", "gamma_ratio", points, per)
+    for name in ("p_ratio", "mu_ratio", "gamma_ratio"):
+        add_means(table, name, name, points, [1 / (1 + inertia * point.stokes) for point in plan.points()])
     add_means(table, "T_ratio_12", "temperature_ratio", points)
     table.put("S", [sum(shear_number(box) / len(point) for box in point) for point in points])
     if plan.pushed:

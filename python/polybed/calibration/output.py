@@ -9,7 +9,6 @@ refusals = []  # of standard output
 
 
 def say(text, to=OUT):
-    """Writes a text to a stream."""
     data = plain(text).encode("utf-8", "surrogateescape")
     try:
         while data:
@@ -17,6 +16,16 @@ def say(text, to=OUT):
     except OSError as error:
         if to == OUT:
             refusals.append(error)
+
+
+def columns(head, rows):
+    """Lines of a table, all to the right. head: name and width of each column; rows: texts"""
+    lines = [[name for name, _ in head], *rows]
+    return "".join(" ".join(f"{cell:>{width}}" for cell, (_, width) in zip(line, head)) + "\n" for line in lines)
+
+
+def mean_text(mean, error):
+    return f"{mean:.4g}+-{error:.1g}"
 
 
 def duration(seconds):

@@ -5,6 +5,7 @@ import math
 import numpy as np
 
 from polybed.calibration.fit import relative_errors, shear_number
+from polybed.calibration.output import columns
 
 
 def listed(values):
@@ -12,7 +13,6 @@ def listed(values):
 
 
 def spread(boxes, name):
-    """The least and greatest of a number of the boxes."""
     return listed([min(box[name] for box in boxes), max(box[name] for box in boxes)])
 
 
@@ -67,11 +67,9 @@ def table_lines(boxes, quantities):
     """A line for each box, at most 100 columns wide, below what is the same in all of them."""
     texts = {name: [text(box) for box in boxes] for name, _, text in PLACE + quantities}
     same = [name for name, _, _ in PLACE[1:-1] if len(set(texts[name])) == 1]
-    columns = [(name, width) for name, width, _ in PLACE + quantities if name not in same]
-    lines = [f"in all boxes {', '.join(f'{name} {texts[name][0]}' for name in same)}"] if same else []
-    lines.append(" ".join(f"{name:>{width}}" for name, width in columns))
-    lines += [" ".join(f"{texts[name][n]:>{width}}" for name, width in columns) for n in range(len(boxes))]
-    return "\n".join(lines) + "\n"
+    head = [(name, width) for name, width, _ in PLACE + quantities if name not in same]
+    shared = f"in all boxes {', '.join(f'{name} {texts[name][0]}' for name in same)}\n" if same else ""
+    return shared + columns(head, zip(*(texts[name] for name, _ in head)))
 
 
 def between(values, digits):

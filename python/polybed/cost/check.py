@@ -16,7 +16,6 @@ TIME_ALLOWED, ROUNDING = 0.25, 1e-9
 
 
 class Checked(NamedTuple):
-    """A claim that was tested."""
     claimed: float
     found: float
     allowed: float

@@ -125,7 +125,6 @@ def overrides_of(given):
 
 
 def sweep(given):
-    """Runs a sweep and writes its files."""
     case = given.words[0]
     scene = Scene(case, overrides_of(given))
     folder = given.output or Path("runs") / f"{name_of(case)}-cost"

@@ -48,7 +48,6 @@ def shares_of(title, shares):
 
 
 def sweep_markdown(sweep, of):
-    """The text of cost.md."""
     reference = sweep.reference
     note = f" ({reference.note})" if reference.note else ""
     lines = [f"{case_name(of.path)} by polybed {sweep.options.model}; the bed is {'chaotic' if sweep.chaotic else 'not chaotic'}; computing times are "

@@ -31,7 +31,6 @@ def settings_words(run):
 
 
 def recommendation(sweep):
-    """What to use for the accuracy asked for."""
     if not sweep["recommend"]:
         return markup("<p>{}{}.</p>", OUTCOMES.get(sweep["outcome"], ""), sweep["reason"] or "no run reaches the accuracy asked for")
     found = Html()
@@ -75,7 +74,6 @@ def shares(title, rows):
 
 
 def text_of(sweep, path):
-    """The page as text."""
     measured = any(q["id"] in run["qoi"] for run in sweep["runs"] for q in sweep["qoi"] if q["shown"])
     drawn = picture(draw(sweep) if measured else None, "all runs; " + file_name(path), "error against computing time")
     overrides = [override for override in sweep["overrides"] if not override.startswith(STORED)]

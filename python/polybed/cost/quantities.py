@@ -40,7 +40,6 @@ def measure_on(keys, begin):
 
 
 def quantities_of(species):
-    """The quantities of a case with these species."""
     def measure(name, unit, scale, row=None):
         return QuantityInfo(name, unit, HELP[row or name], scale)
 

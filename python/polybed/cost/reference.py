@@ -29,7 +29,6 @@ def means_of(row):
 
 
 def given_reference(sweep, folder):
-    """A run that is given."""
     found = quantities_of_run(measured(folder), sweep.on)
     sweep.reference = Reference("directory", folder, {name: mean.mean for name, mean in found.values.items()}, directory=found.directory)
     set_bands(sweep, found.values)

@@ -153,7 +153,6 @@ class Sweeper:
         return len(sweep.rows) - 1
 
     def run_with(self, kind, note, override):
-        """Runs the centre with one more setting."""
         self.run(Row(self.order_of(self.centre, (override,)), kind, self.centre, note))
 
     def find_regime(self):

@@ -30,5 +30,4 @@ def in_words(axis, level):
 
 
 def part(row):
-    """The name of a part of the error."""
     return PARTS.get(row, row)

@@ -47,7 +47,6 @@ def velocities(run, step):
 
 
 def draw(run, step):
-    """The figure of a stored step."""
     groups = [*thin_apart(fractions(run, step)), voidages(run, step), velocities(run, step)]
     groups = [group for group in groups if group.maps]
     return draw_maps(run, groups, title_of(run, run.time[step], maps=True), shown_height(run, [step]))[0]

@@ -65,7 +65,6 @@ def draw_stack(axes, cases, rows, colour_of):
 
 
 def draw(matrix, _folder=None):
-    """The figure of a parsed stability.json."""
     cases = {}
     for cell in matrix["cells"]:
         cases.setdefault(cell["case"], []).append(cell)

@@ -91,7 +91,6 @@ def draw_series(axes, time, values, unit, label, **line):
 
 
 def draw_species(axes, run, values, unit, label):
-    """A quantity of each species in time."""
     factor, shown = fitting(unit, max(np.nanmax(v, initial=0) for v in values.values()))
     for n, name in enumerate(run.kinds):
         if name in values:

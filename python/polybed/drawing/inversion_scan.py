@@ -65,7 +65,6 @@ def commands(scan):
 
 
 def velocity_row(model, of):
-    """What was found by a model."""
     if of["velocity_m_s"] is None:
         found = "not found"
     else:
@@ -85,7 +84,6 @@ def title_of(found):
 
 
 def text_of(found, path):
-    """The page as text."""
     drawn = shown_picture(draw(found), "means over the last part of each run, with their 95 % intervals; " + file_name(path),
                           "distance of the centres over the velocity")
     first, second = found["species"]

@@ -34,7 +34,6 @@ def draw_profiles(axes, run, time):
 
 
 def draw_history(axes, run, time):
-    """Centres of mass and the bed's height in time."""
     history = run.history
     if not history or len(history["time_s"]) == 0:
         axes.set_axis_off()
@@ -81,7 +80,6 @@ def draw_fields(run, step, maps, bars, top):
 
 
 def draw_particles(run, step, maps, bars, top):
-    """The particles by species and by speed."""
     shown = run.particles[step]
     end, beyond = particles.fastest([shown])
     colours = particles.species_colours(run, shown), particles.speed_colours(shown, end)

@@ -67,7 +67,6 @@ def circles(axes, run, step, colours, most=MOST):
 
 
 def species_colours(run, step):
-    """The colour of each particle, by its species."""
     return np.array([COLOURS[n % len(COLOURS)] for n, classes in enumerate(run.kinds.values()) for _ in classes])[step.species]
 
 
@@ -91,7 +90,6 @@ def speed_colours(step, end):
 
 
 def name_species(axes, run):
-    """The names of the species beneath a view."""
     dots = [Line2D([], [], linestyle="", marker="o", color=COLOURS[n % len(COLOURS)], label=name)
             for n, name in enumerate(run.kinds)]
     columns = 1 if max(map(len, run.kinds)) > 10 else 3
@@ -101,7 +99,6 @@ def name_species(axes, run):
 
 
 def speed_bar(axes, end, beyond):
-    """The scale of speeds beneath a view."""
     factor, unit = fitting("m/s", end / 1e3)
     ticks, mapped = [0, end / 2, end], plt.cm.ScalarMappable(Normalize(0, end), "viridis")
     labels = [f"{value / 1e3 * factor:.3g}" for value in ticks]
@@ -143,7 +140,6 @@ class Views:
 
 
 def draw(run, step):
-    """The figure of a stored step of particles."""
     views = Views(run, [step])
     views.show(step)
     return views.figure

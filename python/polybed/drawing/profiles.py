@@ -18,7 +18,6 @@ def value_at(run, column, time):
 
 
 def mark_levels(axes, run, time, factor, named):
-    """Lines at the levels in the bed."""
     for column, name, line in levels(run.history):
         level = value_at(run, column, time)
         if level is None:

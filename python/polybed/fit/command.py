@@ -9,7 +9,7 @@ import numpy as np
 
 from polybed.fit import errors
 from polybed.fit.fitting import Problem
-from polybed.fit.page import page, write_errors
+from polybed.fit.page import COLUMNS, page, write_errors
 from polybed.fit.rows import read_points
 from polybed.runner import answer_of
 from polybed.study import output_folder
@@ -143,8 +143,7 @@ def sum_rule(points, nets, form):
 def told(record):
     every = record["errors"]["all"]
     lines = [f"{'':20}{'mean':>8}{'rms':>8}{'greatest':>10}   % of {every['fitted']['points']} forces"]
-    for what, name in (("published", "published constants"), ("fitted", "fitted"), ("row_left_out", "row left out"),
-                       ("voidage_left_out", "voidages left out")):
+    for what, name in COLUMNS:
         if every[what]:
             lines.append(f"{name:20}{every[what]['mean']:8.2f}{every[what]['rms']:8.2f}{every[what]['greatest']:10.1f}")
     band = {name: f"{100 * value:.1f} %" for name, value in record["band"].items() if value is not None}

@@ -53,7 +53,7 @@ def band_of(points, nets):
         common.append(error.mean())
         y = p.diameter * (p.share / p.diameter).sum()
         order = np.argsort(y)
-        if len(y) == 2 or len(y) <= 4:
+        if len(y) <= 4:
             for a, b in zip(order[:-1], order[1:]):
                 (fine if y[a] < FINE else ratio).append(error[a] - error[b])
     return {"one_size": rms(one), "common": rms(common), "ratio": rms(ratio), "ratio_fine": rms(fine)}

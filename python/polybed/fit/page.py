@@ -47,7 +47,6 @@ def sum_rule_line(worst):
 
 
 def page(record):
-    """The page as Markdown."""
     constraints = record["constraints"]
     return "\n".join([
         f"# Drag law of the form `{record['form']}`, fitted to {record['points']} points", "",
@@ -71,7 +70,6 @@ def page(record):
 
 
 def write_errors(path, points, arrays):
-    """Relative errors of each size of each point."""
     with open(path, "w", encoding="utf-8", newline="") as file:
         rows = csv.writer(file)
         rows.writerow(["row", "eps", "Re", "size", "y", "n", *(name for name in arrays if arrays[name] is not None)])

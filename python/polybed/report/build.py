@@ -92,7 +92,6 @@ def write(directory):
 
 
 def told(path, size, seconds):
-    """What a command says of a page."""
     return f"{path} ({size / 1e6:.2g} MB, made in {seconds:.2g} s)"
 
 

@@ -220,7 +220,6 @@ def make_tfm(request):
     return DONE
 
 
-def main(arguments=None):
-    [request] = sys.argv[1:] if arguments is None else arguments
-    request = json.loads(request)
+def main():
+    request = json.loads(sys.argv[1])
     return guarded(lambda: make_tfm(request) if request["kind"] == "tfm" else make_inversion(request))

@@ -82,7 +82,6 @@ def command_to_go_on(options, time):
 
 
 def compare_runs(options, case, directories):
-    """Compares two runs and writes comparison.json."""
     records = {model: record_of(directories[model], model) for model in MODELS}
     refuse_difference(directories["tfm"], records["tfm"]["case"], directories["dem"], records["dem"]["case"])
     runs = [measured(directories[model]) for model in MODELS]

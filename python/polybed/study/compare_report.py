@@ -101,7 +101,6 @@ def measure_line(name, measure):
 
 
 def table(record):
-    """The tables of a comparison.json."""
     window, order = record["window"], record["scores"]["order"]
     lines = [f"means from {window['begin_s']:.4g} to {window['end_s']:.4g} s, +- 95 %",
              f"{'':30} {'two-fluid (tfm)':>20} {'particles (dem)':>20} {'difference':>20}",

@@ -149,6 +149,5 @@ def make(request):
     return DONE
 
 
-def main(arguments=None):
-    [request] = sys.argv[1:] if arguments is None else arguments
-    return guarded(lambda: make(json.loads(request)))
+def main():
+    return guarded(lambda: make(json.loads(sys.argv[1])))

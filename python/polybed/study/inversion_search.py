@@ -42,7 +42,6 @@ def known(outcome, low, high, velocity, error):
 
 @dataclass
 class Found:
-    """What a search has found."""
     outcome: str  # bracket: narrow enough | indistinct: within the noise from both sides | not found
     steps: list  # in the order in which they were made
     low: float  # the bracket, or the range that was searched, m/s

@@ -28,7 +28,6 @@ class Columns(dict):
 
 @dataclass
 class Measured:
-    """What a run has measured."""
     directory: Path
     history: Columns
     drifts: list = field(default_factory=list)  # what still drifts at its end, a line each
@@ -48,7 +47,6 @@ class Window(NamedTuple):
 
 
 def history_of(run):
-    """The columns of the history of a run that has been opened."""
     return Columns(run.directory / "history.csv", run.history)
 
 

@@ -96,7 +96,6 @@ def distance_score(found, goal=None):
 
 
 def height_score(height):
-    """The ratio of the bed heights, less 1."""
     if not (height.tfm and height.dem):
         return Score(goal=GOAL)
     quotient = height.tfm.mean / height.dem.mean

@@ -16,7 +16,6 @@ VERDICTS = (INSIDE, OUTSIDE, UNDECIDED)
 
 
 def shown(number):
-    """A number with its interval."""
     if number is None:
         return "-"
     value, error = number
@@ -54,7 +53,6 @@ def counted(rows):
 
 
 def html_page(rows, entries, command, commit):
-    """The page of a comparison."""
     body = section("results", "Results", html_table(HEAD, [cells(row) for row in rows]) + source(
         "Measured and computed numbers with their 95 % intervals. A row is inside where the two differ by no more than the joint interval; "
         "a bed that still drifts is undecided."))

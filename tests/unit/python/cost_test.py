@@ -142,12 +142,11 @@ class Judgement(unittest.TestCase):
         self.assertIn("To measure them: --axes grid.", "".join(lines))
 
 
-def axis_of(given, *words):
-    return numbers(SimpleNamespace(of=lambda key, default: given), "tfm", *words)
-
-
 class Axes(unittest.TestCase):
     def test_the_value_of_the_case_is_among_the_levels(self):
+        def axis_of(given, *words):
+            return numbers(SimpleNamespace(of=lambda key, default: given), "tfm", *words)
+
         axis = axis_of(3e-3, "rtol", "tfm.rtol", [1e-2, 1e-3, 1e-4], True, [1e-6])
         self.assertEqual([level.label for level in axis.levels], ["0.01", "0.003", "0.001", "0.0001"])
         self.assertEqual((axis.given, axis.beyond[0].overrides), (1, ["tfm.rtol=9.9999999999999995e-07"]))

@@ -44,6 +44,7 @@ class Pages(unittest.TestCase):
             page = Page(study_drawn(Path(scratch) / name)[-1].read_text())
         self.assertEqual(page.loaded, [])
         self.assertFalse(any("onerror" in attributes for _, attributes in page.elements))
+        self.assertIn(EVIL, "".join(page.text))
         return "".join(page.text)
 
     def test_cost(self):
@@ -51,20 +52,17 @@ class Pages(unittest.TestCase):
         for words in ("What to use", "error of at most 1 %", "relative tolerance (tfm.rtol) 0.001, cells 1x15", "error 0.4 \u00b1 0.1 %", "20 ms of computing",
                       "--set tfm.rtol=0.001", "another is cheaper and as accurate", "1 more were not run", "not measured: fluctuations of the bed"):
             self.assertIn(words, shown)
-        self.assertIn(EVIL, shown)
         self.assertGreater(shown.find("Warnings"), shown.find("What the error is made of"))
 
     def test_cost_without_a_recommendation(self):
         refused = SWEEP | {"recommend": [], "outcome": "refused", "reason": "no trustworthy reference", "reference": {"kind": "", "floor": {}}}
-        shown = self.written("cost.json", refused)
-        self.assertIn("No recommendation: no trustworthy reference.", shown)
+        self.assertIn("No recommendation: no trustworthy reference.", self.written("cost.json", refused))
 
     def test_scan(self):
         shown = self.written("inversion.json", SCAN)
         for words in ("31 mm/s \u00b1 1 mm/s", "30 mm/s to 32 mm/s", "the range is narrow enough", "force balance, without a run36 mm/s",
                       "-0.1 \u00b1 0.01", "--from '0.02 m/s'", "fine<b> and coarse change places"):
             self.assertIn(words, shown)
-        self.assertIn(EVIL, shown)
 
 
 if __name__ == "__main__":
