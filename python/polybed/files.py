@@ -2,6 +2,7 @@
 Nothing else in this package opens a file to read."""
 
 import contextlib
+import csv
 import io
 import json
 import math
@@ -109,6 +110,11 @@ def read_bytes(path):
 def whole_lines(path):
     """The lines of a text file that end, without their ends: what follows the last end may be cut short."""
     return read_text(path).split("\n")[:-1]
+
+
+def rows_of(path):
+    """Rows of a CSV file as dictionaries of texts; lines that begin with # are comments."""
+    return list(csv.DictReader(line for line in read_text(path).splitlines() if line and not line.startswith("#")))
 
 
 def finite(text):

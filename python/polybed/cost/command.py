@@ -9,15 +9,14 @@ from polybed.cost import attribution, front
 from polybed.cost.axes import MACHINE, MAKERS, MODEL, NUMERICS, STATISTICS
 from polybed.cost.check import check_recommendation
 from polybed.cost.judge import measure_distances, measure_errors, rank, settings_text
-from polybed.cost.markdown import sweep_markdown
 from polybed.cost.reference import find_reference
-from polybed.cost.report import SweepOf, sweep_json, write_sweep
+from polybed.cost.report import SweepOf, sweep_json, sweep_markdown, write_sweep
 from polybed.cost.runner import Runner
 from polybed.cost.scene import Scene
 from polybed.cost.sweep import CANDIDATE, SweepOptions
 from polybed.cost.sweeper import Sweeper, common_overrides
 from polybed.program import name_of
-from polybed.runner import call, words_of
+from polybed.runner import call, commit_and_build, words_of
 from polybed.study import output_folder
 from polybed.study.record import remark
 from polybed.ending import DONE, FILE, NUMBERS, WRONG_CASE, StudyError, answer, guarded
@@ -137,7 +136,7 @@ def sweep(given):
     overrides = [*scene.overrides, *common_overrides(scene)]
     with output_folder.taken(folder):
         found = run_sweep(scene, options, Runner(scene, overrides, output_folder.subfolder(folder, "runs"), given.resume))
-        of = SweepOf(os.path.abspath(case), scene, overrides)
+        of = SweepOf(os.path.abspath(case), scene, overrides, *commit_and_build())
         no_picture = write_sweep(found, of, folder, given.picture)
         answer(sweep_json(found, of) if given.json else f"{sweep_markdown(found, of)}\n{folder / 'cost.json'}")
     if no_picture:

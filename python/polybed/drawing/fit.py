@@ -1,16 +1,14 @@
 """Errors of a fitted drag law: against voidage, and against the same with rows left out."""
 
-import csv
-
 import matplotlib.pyplot as plt
 import numpy as np
 
 from polybed.drawing.style import COLOURS, GREY
-from polybed.files import read_text
+from polybed.files import rows_of
 
 
 def columns(path):
-    rows = list(csv.DictReader(read_text(path).splitlines()))
+    rows = rows_of(path)
     return {name: np.array([float(row[name] or "nan") for row in rows]) for name in rows[0] if name != "row"}
 
 

@@ -5,7 +5,7 @@ import functools
 import matplotlib.pyplot as plt
 import numpy as np
 
-from polybed.drawing.style import COLOURS, GREY, PALE, fitted, length_unit, levels, species_line, title_of
+from polybed.drawing.style import COLOURS, GREY, PALE, drop_over_weight, fitted, length_unit, levels, species_line, title_of
 from polybed.drawing.units import fitting
 from polybed.outflow import discharge_rate, mass_out, recovery
 
@@ -22,13 +22,9 @@ def draw_heights(axes, run, factor, unit):
     axes.set_ylabel(f"height ({unit})")
 
 
-def draw_force_balance(axes, run):
-    """Pressure drop over the buoyant weight: 1 where the fluid carries the bed."""
-    history = run.history
-    weight = history["buoyant_weight_Pa"]
-    ratio = np.divide(history["pressure_drop_Pa"], weight, out=np.full_like(weight, np.nan), where=weight != 0)
+def draw_force_balance(axes, run, ratio):
     axes.axhline(1, color=PALE, linewidth=0.8, zorder=0)
-    axes.plot(history["time_s"], ratio, color="black", linewidth=0.8)
+    axes.plot(run.history["time_s"], ratio, color="black", linewidth=0.8)
     known = ratio[np.isfinite(ratio)]
     if len(known):
         low, high = np.quantile(known, [0.02, 0.98])
@@ -121,9 +117,9 @@ def panels(run):
     """(relative height, function) of what the history holds."""
     history = run.history
     chosen = [(2.4, lambda axes: draw_heights(axes, run, *length_unit(run)))]
-    # particles without a fluid have no pressure
-    if {"pressure_drop_Pa", "buoyant_weight_Pa"} <= history.keys() and np.any(history["pressure_drop_Pa"] != 0):
-        chosen.append((1.2, lambda axes: draw_force_balance(axes, run)))
+    ratio = drop_over_weight(history)
+    if ratio is not None:
+        chosen.append((1.2, lambda axes: draw_force_balance(axes, run, ratio)))
     left = mass_out(history, run.kinds)
     if left:
         shares = recovery(history, run.kinds)

@@ -52,6 +52,14 @@ def levels(history):
             if not np.isnan(history.get(column, np.nan)).all() and not (column == INTERFACE and species > 2)]
 
 
+def drop_over_weight(history):
+    """Pressure drop over the buoyant weight, 1 where the fluid carries the bed; None of particles without a fluid, which have no pressure."""
+    if not {"pressure_drop_Pa", "buoyant_weight_Pa"} <= history.keys() or not np.any(history["pressure_drop_Pa"] != 0):
+        return None
+    weight = history["buoyant_weight_Pa"]
+    return np.divide(history["pressure_drop_Pa"], weight, out=np.full_like(weight, np.nan), where=weight != 0)
+
+
 def length_unit(run):
     """(factor, name) of the unit in which lengths of a run read well."""
     return (1e3, "mm") if run.size[1] < 2 else (1.0, "m")

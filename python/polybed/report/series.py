@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from polybed.drawing.style import COLOURS, GREY, levels
+from polybed.drawing.style import COLOURS, GREY, drop_over_weight, levels
 from polybed.drawing.units import fitting
 from polybed.outflow import discharge_rate, mass_out, recovery
 from polybed.quantities import unit_of_field
@@ -52,12 +52,10 @@ def height_panel(run):
 
 
 def balance_panel(run):
-    history = run.history
-    if not {"pressure_drop_Pa", "buoyant_weight_Pa"} <= history.keys() or not np.any(history["pressure_drop_Pa"] != 0):
+    ratio = drop_over_weight(run.history)
+    if ratio is None:
         return []
-    weight = history["buoyant_weight_Pa"]
-    ratio = np.divide(history["pressure_drop_Pa"], weight, out=np.full_like(weight, np.nan), where=weight != 0)
-    return [panel("pressure drop over weight", "1", [line("1: the fluid carries the bed", history["time_s"], ratio)], zero=False)]
+    return [panel("pressure drop over weight", "1", [line("1: the fluid carries the bed", run.history["time_s"], ratio)], zero=False)]
 
 
 def outflow_panels(run):

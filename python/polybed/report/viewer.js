@@ -7,7 +7,7 @@
     signed: "0530611752902a71b23f8ec06bacd19bc9e0c2ddece0ecf3f7f6f6fbe5d8fbccb4f5aa89e48066d05548ba2832930e2667001f",
   };
   const NOTHING = [238, 238, 238], PIXELS = window.devicePixelRatio || 1;
-  const make = (kind, into, text = "") => { const e = document.createElement(kind); e.textContent = text; into.append(e); return e; };
+  const make = (kind, into, text = "", looks = "") => { const e = document.createElement(kind); e.textContent = text; e.className = looks; into.append(e); return e; };
 
   function colourTable(name) {
     const points = COLOURS[name].match(/.{6}/g).map(p => [0, 2, 4].map(n => parseInt(p.substr(n, 2), 16)));
@@ -88,8 +88,7 @@
   }
 
   function drawKey(into, lines) {
-    const key = make("div", into);
-    key.className = "key";
+    const key = make("div", into, "", "key");
     for (const line of lines) {
       const entry = make("span", key), mark = make("i", entry);
       mark.style.borderColor = line.colour;
@@ -110,12 +109,11 @@
   /** Adds the panels of the history; returns what moves their marks to a time. */
   function showHistory(into, panels, end) {
     const drawn = panels.map(panel => {
-      const figure = make("div", into);
-      figure.className = "figure";
+      const figure = make("div", into, "", "figure");
       make("div", figure, panel.title);
       const width = 490, height = 190, to = canvas(figure, width, height);
       drawKey(figure, panel.lines);
-      if (panel.note) make("div", figure, panel.note).className = "source";
+      if (panel.note) make("div", figure, panel.note, "source");
       const chart = { lines: panel.lines, x: [panel.lines[0].x[0], Math.max(end, panel.lines[0].x[0] + 1e-9)], y: rangeOf(panel.lines, panel.zero), across: "time (s)" };
       return time => drawChart(to, width, height, { ...chart, mark: time });
     });
@@ -129,12 +127,11 @@
     plane.width = maps.nx; plane.height = maps.ny;
     const paint = plane.getContext("2d"), image = paint.createImageData(maps.nx, maps.ny);
     for (const map of maps.maps) {
-      const level = map.levels, table = colourTable(map.colours), figure = make("div", into);
+      const level = map.levels, table = colourTable(map.colours), figure = make("div", into, "", "figure");
       map.figure = figure;
-      figure.className = "figure";
       make("div", figure, map.label);
-      const to = canvas(figure, width + 34, tall + 62), scale = make("div", figure, map.scale);
-      scale.className = "source"; scale.style.width = `${width + 34}px`;  // wrapped below a narrow map
+      const to = canvas(figure, width + 34, tall + 62), scale = make("div", figure, map.scale, "source");
+      scale.style.width = `${width + 34}px`;  // wrapped below a narrow map
       map.draw = step => {
         for (let n = 0; n < cells; ++n) {
           const row = maps.ny - 1 - Math.floor(n / maps.nx), value = level[step * cells + n];
@@ -165,8 +162,7 @@
   function showProfiles(into, profiles, unit, height, top) {
     const draws = [];
     for (const chart of profiles.charts) {
-      const figure = make("div", into), width = 300, rows = profiles.y.length;
-      figure.className = "figure";
+      const figure = make("div", into, "", "figure"), width = 300, rows = profiles.y.length;
       make("div", figure, `lateral mean: ${chart.title}`);
       const to = canvas(figure, width, height + 40);
       drawKey(figure, chart.lines);
@@ -199,8 +195,7 @@
     const steps = all.time.length, numbers = count * 3, total = steps * numbers;
     const places = new Uint16Array(total);
     for (let n = 0; n < total; ++n) places[n] = packed[n] + 256 * packed[total + n] + (n >= numbers ? places[n - numbers] : 0);
-    const size = 460, figure = make("div", into);
-    figure.className = "figure";
+    const size = 460, figure = make("div", into, "", "figure");
     make("div", figure, "particles: drag to turn, wheel to come nearer, double click to reset");
     const to = canvas(figure, size, size), element = to.canvas;
     element.id = "particles"; element.tabIndex = 0;
@@ -267,10 +262,9 @@
       view.by = name;
       keys.replaceChildren();
       if (name === "species") drawKey(keys, key);
-      else make("div", keys, `speed: dark 0, bright ${all.fastest} and more`).className = "key";
+      else make("div", keys, `speed: dark 0, bright ${all.fastest} and more`, "key");
       draw();
     }
-    keys.className = "keys";
     by("species");
     return { time: all.time, draw(step) { view.step = step; draw(); }, by };
   }
@@ -289,8 +283,7 @@
   async function show(data, where = { end: true }) {
     await unpack(data);
     const bed = document.createElement("div"), height = 400;
-    const controls = make("div", bed), views = make("div", bed), rows = make("div", bed);
-    controls.className = "row controls"; views.className = rows.className = "row";
+    const controls = make("div", bed, "", "row controls"), views = make("div", bed, "", "row"), rows = make("div", bed, "", "row");
     const maps = data.maps && showMaps(views, data.maps, data.unit, height);
     const particles = data.particles && showParticles(views, data.particles, data.unit);
     const top = data.maps ? data.maps.size[1] : data.particles ? data.particles.size[1] : data.profiles ? data.profiles.y.at(-1) : 1;
@@ -335,7 +328,7 @@
       select.id = "by"; select.value = where.by || "species";
       particles.by(select.value);
     }
-    for (const part of [data.maps, data.particles]) if (part && part.note) make("p", bed, part.note).className = "source";
+    for (const part of [data.maps, data.particles]) if (part && part.note) make("p", bed, part.note, "source");
     if (times.length < 2) controls.style.display = "none";
     document.getElementById("bed-view")?.replaceChildren(bed);
     history?.replaceChildren(panels);

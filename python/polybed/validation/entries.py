@@ -3,9 +3,7 @@
 Measured numbers come from CSV files, a case script or the case itself. No entry contains a number of a model.
 """
 
-import csv
 import importlib.util
-import io
 import tomllib
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -13,7 +11,7 @@ from random import Random
 from statistics import NormalDist
 
 from polybed.ending import FILE, WRONG_CASE, StudyError
-from polybed.files import FormatError, contents_of, finite, read_text
+from polybed.files import FormatError, contents_of, finite, read_text, rows_of
 from polybed.program import cases_folder
 
 FILE_NAME = "validation.toml"
@@ -121,12 +119,6 @@ def entry_named(name):
     if name not in known:
         raise StudyError(WRONG_CASE, f"there is no entry {name!r} in {folder()}; there are {', '.join(known)}")
     return entry_at(folder() / name)
-
-
-def rows_of(path):
-    """Rows of a CSV file as dictionaries of texts; lines that begin with # are comments."""
-    lines = [line for line in read_text(path).splitlines() if line and not line.startswith("#")]
-    return list(csv.DictReader(io.StringIO("\n".join(lines))))
 
 
 def chosen_rows(path, where):
