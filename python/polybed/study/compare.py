@@ -91,7 +91,7 @@ def compare_runs(options, case, directories):
         with contents_of(scan[1]):
             add_inversion(found, *scan, case.velocity)
     states = {model: record["state"] for model, record in records.items()}
-    found.warnings += [f"{model}: the run is not done ({state})" for model, state in states.items() if state != "done"]
+    found["warnings"] += [f"{model}: the run is not done ({state})" for model, state in states.items() if state != "done"]
     plain = report.plain(found, case, options.output, {model: (directories[model], records[model]) for model in MODELS})
     path = Path(options.output) / "comparison.json"
     text = write_record(path, plain)

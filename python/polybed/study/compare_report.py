@@ -7,34 +7,9 @@ from polybed.files import contents_of
 from polybed.quantities import measure_words, unit_of_column
 from polybed.study.scores import MODELS
 
-CONFIDENCE = 0.95  # of all intervals
 # Counters of run.json that the screen shows, with their words.
 COUNTERS = {"rhs_evaluations": "evaluations of the equations", "linear_iterations": "linear iterations", "steps": "steps",
             "particle_steps": "particle steps", "pair_checks": "checks of pairs"}
-
-
-def plain_measure(measure):
-    plain = {}
-    for model in MODELS:
-        mean = getattr(measure, model)
-        plain |= {model: mean and mean.mean, f"{model}_error": mean and mean.error}
-    return plain | {"difference": measure.difference, "difference_error": measure.difference_error}
-
-
-def plain_profiles(found):
-    """Means over time in the slabs; an error is null where there are too few profiles to tell it."""
-    plain = {"y_m": found.height}
-    for model in MODELS:
-        plain[model] = {f"phi_{name}": {"mean": of["mean"], "error": of["interval"]} for name, of in found.fraction[model].items()}
-    return plain
-
-
-def plain_scores(found):
-    plain = {name: {"value": score.value, "error": score.error, "goal": score.goal, "reached": score.reached}
-             for name, score in found.scores.items()}
-    order = {model: top and top._asdict() for model, top in found.top.items()}
-    same = order["tfm"]["species"] == order["dem"]["species"] if all(order.values()) else None
-    return plain | {"order": order | {"same": same}}
 
 
 def plain_run(directory, record, profiles):
@@ -46,17 +21,12 @@ def plain_run(directory, record, profiles):
 
 
 def plain(found, case, directory, runs):
-    """comparison.json. case: a Case; directory: of the comparison; runs: (folder, record) by model"""
-    record = {"filetype": "polybed comparison", "version": 1, "git_commit": case.git_commit, "case": case.path, "directory": directory,
-              "overrides": case.overrides,
-              "window": {"begin_s": found.window.begin, "end_s": found.window.end, "shortened": found.window.shortened,
-                         "confidence": CONFIDENCE},
-              "measures": {name: plain_measure(measure) for name, measure in found.measures.items()},
-              "mean_profiles": plain_profiles(found), "scores": plain_scores(found),
-              "models": {model: plain_run(*runs[model], found.profiles[model]) for model in MODELS}}
-    if found.inversion_file:
-        record["inversion_file"] = found.inversion_file
-    return record | {"warnings": found.warnings}
+    """comparison.json. found: of scores.compare; case: a Case; directory: of the comparison; runs: (folder, record) by model"""
+    parts = {part: found[part] for part in ("window", "measures", "mean_profiles", "scores")}
+    models = {model: plain_run(*runs[model], found["profiles"][model]) for model in MODELS}
+    of_scan = {"inversion_file": found["inversion_file"]} if "inversion_file" in found else {}
+    return {"filetype": "polybed comparison", "version": 1, "git_commit": case.git_commit, "case": case.path, "directory": directory,
+            "overrides": case.overrides, **parts, "models": models, **of_scan, "warnings": found["warnings"]}
 
 
 def with_error(value, error):

@@ -1,14 +1,12 @@
-"""Two runs of one case, one by each model, measured over the same window and scored."""
+"""Two runs of one case, one by each model, measured over the same window and scored, as comparison.json has it."""
 
 import math
-from dataclasses import dataclass, field
-from typing import NamedTuple
 
 import numpy as np
 
 from polybed.quantities import measure_words
 from polybed.read import kinds_among
-from polybed.study.measured import TimeMean, centre_column, means_of
+from polybed.study.measured import centre_column, means_of
 
 ENOUGH = 30  # autocorrelation times in a window
 ENOUGH_ROWS = 20  # of the history, for an interval
@@ -16,66 +14,37 @@ WINDOW_PARTS = 4  # windows in a run
 GOAL = 0.05
 COMPOSITION_GOAL_NEAR_INVERSION = 0.1
 NEAR_INVERSION = 0.05  # of a velocity over that of the inversion, less 1
+CONFIDENCE = 0.95  # of all intervals
 MODELS = ("tfm", "dem")
 
 
-class Measure(NamedTuple):
-    """A time mean by both models; None where a run has none."""
-    tfm: TimeMean | None
-    dem: TimeMean | None
-
-    @property
-    def difference(self):
-        """TFM less DEM."""
-        return self.tfm.mean - self.dem.mean if self.tfm and self.dem else None
-
-    @property
-    def difference_error(self):
-        """Half-width of its 95 % interval."""
-        known = self.tfm and self.dem and self.tfm.error is not None and self.dem.error is not None
-        return math.hypot(self.tfm.error, self.dem.error) if known else None
+def joint_error(first, second):
+    """Half-width of the 95 % interval of the difference of two means; None if one is not known."""
+    known = first and second and None not in (first.error, second.error)
+    return math.hypot(first.error, second.error) if known else None
 
 
-@dataclass
-class Score:
-    """How far apart the models are, and how far they may be."""
-    value: float | None = None
-    error: float | None = None  # half-width of the 95 % interval
-    goal: float | None = None
-
-    @property
-    def reached(self):
-        """Whether the value itself, whatever its interval, is within the goal; None without one of them."""
-        return None if self.value is None or self.goal is None else abs(self.value) <= self.goal
+def measure(tfm, dem):
+    """Time means by both models, None where a run has none, and their difference."""
+    found = {}
+    for model, mean in zip(MODELS, (tfm, dem)):
+        found |= {model: mean and mean.mean, f"{model}_error": mean and mean.error}
+    return found | {"difference": tfm.mean - dem.mean if tfm and dem else None, "difference_error": joint_error(tfm, dem)}
 
 
-class OnTop(NamedTuple):
-    """The species with the highest centre."""
-    species: str
-    certain: bool  # the centres of the two highest differ by more than the interval of their difference
-
-
-@dataclass
-class Comparison:
-    window: tuple
-    species: list
-    height: list  # of the slabs' centres, m
-    profiles: dict  # number of stored profiles in the window, by model
-    fraction: dict  # mean profiles by model and species: "mean" and "interval" in the slabs
-    measures: dict = field(default_factory=dict)  # by name with its unit
-    scores: dict = field(default_factory=dict)  # by name: e_H, e_b, D1, profile_<name>, u_inv
-    top: dict = field(default_factory=dict)  # by model; of one species None
-    inversion_file: str | None = None  # where u_inv is from
-    warnings: list = field(default_factory=list)
+def score(value=None, error=None, goal=None):
+    """How far apart the models are, and how far they may be; it is reached if the value itself, whatever its interval, is within the goal."""
+    return {"value": value, "error": error, "goal": goal, "reached": None if value is None or goal is None else abs(value) <= goal}
 
 
 def on_top(centres):
-    """centres: time means by species"""
+    """The species with the highest centre; certain if the two highest differ by more than the interval of their difference. None for one
+    species. centres: time means by species"""
     if len(centres) < 2 or None in centres.values():
         return None
     (name, first), (_, second) = sorted(centres.items(), key=lambda entry: -entry[1].mean)[:2]
-    known = first.error is not None and second.error is not None
-    return OnTop(name, bool(known and first.mean - second.mean > math.hypot(first.error, second.error)))
+    error = joint_error(first, second)
+    return {"species": name, "certain": error is not None and first.mean - second.mean > error}
 
 
 def warnings_of(run, means):
@@ -92,43 +61,54 @@ def warnings_of(run, means):
 
 
 def distance_score(found, goal=None):
-    return Score(found.mean, found.error, goal) if found else Score(goal=goal)
+    return score(found.mean, found.error, goal) if found else score(goal=goal)
 
 
-def height_score(height):
-    if not (height.tfm and height.dem):
-        return Score(goal=GOAL)
-    quotient = height.tfm.mean / height.dem.mean
-    score = Score(quotient - 1, goal=GOAL)
-    if height.tfm.error is not None and height.dem.error is not None:
-        score.error = math.hypot(height.tfm.error / height.dem.mean, quotient * height.dem.error / height.dem.mean)
-    return score
+def height_score(tfm, dem):
+    """The ratio of the bed heights, less 1."""
+    if not (tfm and dem):
+        return score(goal=GOAL)
+    quotient, error = tfm.mean / dem.mean, None
+    if None not in (tfm.error, dem.error):
+        error = math.hypot(tfm.error / dem.mean, quotient * dem.error / dem.mean)
+    return score(quotient - 1, error, GOAL)
+
+
+def scores_of(means, measures, distances, species, kinds):
+    """Scores by name, e_H, e_b, D1, profile_<name>, and the order of the layers. means: by model and name; kinds: species with their classes
+    as one"""
+    found = {"e_H": height_score(*(of["bed_height_m"] for of in means.values()))}
+    if len(kinds) > 1:
+        b = measures["centre_difference"]
+        found |= {"e_b": score(b["difference"], b["difference_error"], GOAL), "D1": distance_score(distances.get("composition"), GOAL)}
+    found |= {f"profile_{name}": distance_score(distances.get(f"profile_{name}")) for name in species}
+    top = {model: on_top({name: of[centre_column(name)] for name in kinds}) for model, of in means.items()}
+    same = top["tfm"]["species"] == top["dem"]["species"] if all(top.values()) else None
+    return found | {"order": top | {"same": same}}
 
 
 def compare(tfm, dem):
-    """Measures and scores of two runs of one case, both Measured. Raises ProgramError if their species or slabs are not the same."""
+    """What comparison.json says of two runs of one case, both Measured, and the number of their profiles in the window. Raises ProgramError
+    if their species or slabs are not the same."""
     window, runs, distances = means_of(tfm.directory, beside=dem.directory)
-    species = list(runs[0].fraction)
-    kinds = list(kinds_among(species))  # size classes count as one
-    several, centres = len(kinds) > 1, dict.fromkeys(map(centre_column, [*species, *kinds]))
-    names = ["bed_height_m", "pressure_drop_Pa", "pressure_drop_over_weight", *centres,
-             *(["centre_difference", "mixing"] if several else [])]
-    measures = {name: Measure(*(run.means.get(name) for run in runs)) for name in names}
-    scores = {"e_H": height_score(measures["bed_height_m"])}
-    if several:
-        measures["interface_m"] = Measure(*(run.of_profile.get("interface_m") for run in runs))
-        b = measures["centre_difference"]
-        scores |= {"e_b": Score(b.difference, b.difference_error, GOAL), "D1": distance_score(distances.get("composition"), GOAL)}
-    scores |= {f"profile_{name}": distance_score(distances.get(f"profile_{name}")) for name in species}
-    found = Comparison(window, species, runs[0].height, {}, {}, measures, scores)
-    for model, run, drifts in zip(MODELS, runs, (tfm.drifts, dem.drifts)):
-        means = {name: getattr(measure, model) for name, measure in measures.items()}
-        found.profiles[model], found.fraction[model] = run.profiles, run.fraction
-        found.top[model] = on_top({name: means[centre_column(name)] for name in kinds})
-        found.warnings += [f"{model}: {line}" for line in (*warnings_of(run, means), *drifts)]
-    if not all(found.profiles.values()):
-        found.warnings.append("no stored profile of both runs in the window: a smaller output.every stores more")
-    return found
+    by_model, species = dict(zip(MODELS, runs)), list(runs[0].fraction)
+    kinds = list(kinds_among(species))
+    several, centres = ["centre_difference", "mixing"] if len(kinds) > 1 else [], dict.fromkeys(map(centre_column, [*species, *kinds]))
+    names = ["bed_height_m", "pressure_drop_Pa", "pressure_drop_over_weight", *centres, *several]
+    means = {model: {name: run.means.get(name) for name in names} for model, run in by_model.items()}
+    for model, run in by_model.items() if several else ():
+        means[model]["interface_m"] = run.of_profile.get("interface_m")
+    measures = {name: measure(means["tfm"][name], means["dem"][name]) for name in means["tfm"]}
+    fractions = {model: {f"phi_{name}": {"mean": of["mean"], "error": of["interval"]} for name, of in run.fraction.items()}
+                 for model, run in by_model.items()}
+    profiles = {model: run.profiles for model, run in by_model.items()}
+    warnings = [f"{model}: {line}" for model, of in (("tfm", tfm), ("dem", dem))
+                for line in (*warnings_of(by_model[model], means[model]), *of.drifts)]
+    if not all(profiles.values()):
+        warnings.append("no stored profile of both runs in the window: a smaller output.every stores more")
+    return {"window": {"begin_s": window.begin, "end_s": window.end, "shortened": window.shortened, "confidence": CONFIDENCE},
+            "measures": measures, "mean_profiles": {"y_m": runs[0].height} | fractions,
+            "scores": scores_of(means, measures, distances, species, kinds), "profiles": profiles, "warnings": warnings}
 
 
 def add_inversion(comparison, scan, path, velocity):
@@ -137,10 +117,12 @@ def add_inversion(comparison, scan, path, velocity):
 
     scan: inversion.json; path: its file; velocity: at which the runs of the comparison are, m/s, or None
     """
+    scores = comparison["scores"]
     found = [scan["models"][model]["velocity_m_s"] for model in MODELS]
     near = velocity is not None and bool((np.abs(velocity / np.array(found) - 1) <= NEAR_INVERSION).any())
-    if near and "D1" in comparison.scores:
-        comparison.scores["D1"].goal = COMPOSITION_GOAL_NEAR_INVERSION
+    if near and "D1" in scores:
+        scores["D1"] = score(scores["D1"]["value"], scores["D1"]["error"], COMPOSITION_GOAL_NEAR_INVERSION)
     agreement = scan["agreement"]
-    comparison.scores["u_inv"] = Score(agreement["value"], agreement["error"], agreement["goal"])
-    comparison.inversion_file = str(path)
+    scores["u_inv"] = score(agreement["value"], agreement["error"], agreement["goal"])
+    scores["order"] = scores.pop("order")  # remains the last
+    comparison["inversion_file"] = str(path)

@@ -44,7 +44,7 @@ def compare(tfm, dem):
 
 class Compare(unittest.TestCase):
     def warned(self, comparison, text):
-        self.assertTrue(any(text in line for line in comparison.warnings), comparison.warnings)
+        self.assertTrue(any(text in line for line in comparison["warnings"]), comparison["warnings"])
 
     # Of 26 profiles in the window the first two have 0.13 more fine in the lowest slab: 0.26/26 in the mean. Ten groups of
     # 2 3 2 3 3 2 3 2 3 3 are left out in turn: 0 without the first, 0.26/24 without another of 2, 0.26/23 without one
@@ -54,42 +54,43 @@ class Compare(unittest.TestCase):
         swings = at_rest(0.03, 0.06)
         swings.profiles["phi_fine"][75:77, 0] += 0.13
         c = compare(swings, at_rest(0.03, 0.06))
-        self.assertEqual(c.species, ["fine", "coarse"])
-        self.assertEqual(len(c.height), SLABS)
-        tfm, dem = c.fraction["tfm"]["fine"], c.fraction["dem"]
+        means = c["mean_profiles"]
+        self.assertEqual(list(means["tfm"]), ["phi_fine", "phi_coarse"])
+        self.assertEqual(len(means["y_m"]), SLABS)
+        tfm, dem = means["tfm"]["phi_fine"], means["dem"]
         self.assertAlmostEqual(tfm["mean"][0], 0.51, delta=1e-14)
-        self.assertAlmostEqual(tfm["interval"][0], 0.0227387, delta=1e-7)
-        self.assertEqual((tfm["mean"][1], tfm["interval"][1]), (0.5, 0))
-        self.assertEqual(dem["fine"]["interval"][0], 0)
-        self.assertEqual(dem["coarse"]["mean"][0], 0)  # coarse on top
-        self.assertEqual(dem["coarse"]["mean"][15], 0.5)  # centre at 31 mm
+        self.assertAlmostEqual(tfm["error"][0], 0.0227387, delta=1e-7)
+        self.assertEqual((tfm["mean"][1], tfm["error"][1]), (0.5, 0))
+        self.assertEqual(dem["phi_fine"]["error"][0], 0)
+        self.assertEqual(dem["phi_coarse"]["mean"][0], 0)  # coarse on top
+        self.assertEqual(dem["phi_coarse"]["mean"][15], 0.5)  # centre at 31 mm
 
     def test_a_run_with_itself(self):
         run = at_rest(0.03, 0.06)
         c = compare(run, run)
-        self.assertEqual(c.window, (75, 100, False))
-        self.assertEqual(c.profiles["tfm"], 26)  # 75 to 100 s
-        self.assertEqual({name: measure.difference for name, measure in c.measures.items()}, dict.fromkeys(c.measures, 0))
-        self.assertEqual({name: score.value for name, score in c.scores.items()}, dict.fromkeys(c.scores, 0))
-        self.assertEqual(c.top["tfm"], ("coarse", True))
-        self.assertEqual(c.warnings, [])
+        self.assertEqual(c["window"], {"begin_s": 75, "end_s": 100, "shortened": False, "confidence": 0.95})
+        self.assertEqual(c["profiles"]["tfm"], 26)  # 75 to 100 s
+        self.assertEqual({measure["difference"] for measure in c["measures"].values()}, {0})
+        self.assertEqual(c["scores"].pop("order")["tfm"], {"species": "coarse", "certain": True})
+        self.assertEqual({score["value"] for score in c["scores"].values()}, {0})
+        self.assertEqual(c["warnings"], [])
 
     def test_a_higher_bed(self):
         """By hand: fine 0 to 30 mm in both; coarse 30 to 60 mm and 30 to 66 mm."""
         c = compare(at_rest(0.03, 0.066), at_rest(0.03, 0.06))
         for name, difference in (("bed_height_m", 0.006), ("centre_fine_m", 0), ("centre_coarse_m", 0.003)):
-            self.assertAlmostEqual(c.measures[name].difference, difference, delta=1e-15)
-        self.assertAlmostEqual(c.measures["bed_height_m"].tfm.mean, 0.066, delta=1e-15)
-        self.assertAlmostEqual(c.measures["pressure_drop_over_weight"].dem.mean, 0.98, delta=1e-15)
-        self.assertAlmostEqual(c.scores["e_H"].value, 0.1, delta=1e-12)
-        self.assertIs(c.scores["e_H"].reached, False)
-        self.assertAlmostEqual(c.scores["e_b"].value, (0.048 - 0.015) / 0.066 - 0.5, delta=1e-12)  # exactly 0
-        self.assertIs(c.scores["e_b"].reached, True)
-        self.assertAlmostEqual(c.scores["profile_coarse"].value, 0.2, delta=1e-12)  # 6 of 30 mm more
-        self.assertAlmostEqual(c.scores["profile_fine"].value, 0, delta=1e-12)
+            self.assertAlmostEqual(c["measures"][name]["difference"], difference, delta=1e-15)
+        self.assertAlmostEqual(c["measures"]["bed_height_m"]["tfm"], 0.066, delta=1e-15)
+        self.assertAlmostEqual(c["measures"]["pressure_drop_over_weight"]["dem"], 0.98, delta=1e-15)
+        self.assertAlmostEqual(c["scores"]["e_H"]["value"], 0.1, delta=1e-12)
+        self.assertIs(c["scores"]["e_H"]["reached"], False)
+        self.assertAlmostEqual(c["scores"]["e_b"]["value"], (0.048 - 0.015) / 0.066 - 0.5, delta=1e-12)  # exactly 0
+        self.assertIs(c["scores"]["e_b"]["reached"], True)
+        self.assertAlmostEqual(c["scores"]["profile_coarse"]["value"], 0.2, delta=1e-12)  # 6 of 30 mm more
+        self.assertAlmostEqual(c["scores"]["profile_fine"]["value"], 0, delta=1e-12)
         # The fine species has 5/11 and 1/2 of the volume: they differ over 1/22 of it, but for the slice that both cut.
-        self.assertAlmostEqual(c.scores["D1"].value, 1 / 22, delta=1 / 50)
-        self.assertAlmostEqual(c.measures["interface_m"].dem.mean, 0.03, delta=1e-12)
+        self.assertAlmostEqual(c["scores"]["D1"]["value"], 1 / 22, delta=1 / 50)
+        self.assertAlmostEqual(c["measures"]["interface_m"]["dem"], 0.03, delta=1e-12)
 
     def test_size_classes_are_one_species(self):
         run = at_rest(0.03, 0.06)
@@ -98,16 +99,16 @@ class Compare(unittest.TestCase):
                 part[name.format(f"fine.{size}")] = part[name.format("fine")] / (2 if "phi" in name else 1)
         del run.profiles["phi_fine"]
         c = compare(run, run)
-        self.assertEqual(c.top["tfm"], ("coarse", True))
-        self.assertAlmostEqual(abs(c.measures["centre_difference"].tfm.mean), 0.5, delta=1e-12)
-        self.assertAlmostEqual(c.measures["interface_m"].tfm.mean, 0.03, delta=1e-12)
+        self.assertEqual(c["scores"]["order"]["tfm"], {"species": "coarse", "certain": True})
+        self.assertAlmostEqual(abs(c["measures"]["centre_difference"]["tfm"]), 0.5, delta=1e-12)
+        self.assertAlmostEqual(c["measures"]["interface_m"]["tfm"], 0.03, delta=1e-12)
 
     def test_an_inverted_bed(self):
         c = compare(at_rest(0.03, 0.06, True), at_rest(0.03, 0.06, False))
-        self.assertEqual([c.top[model].species for model in ("tfm", "dem")], ["coarse", "fine"])
+        self.assertEqual([c["scores"]["order"][model]["species"] for model in ("tfm", "dem")], ["coarse", "fine"])
         for name, value in (("e_b", 1), ("D1", 1), ("profile_fine", 2)):
-            self.assertAlmostEqual(c.scores[name].value, value, delta=1e-12)
-        self.assertIs(c.scores["D1"].reached, False)
+            self.assertAlmostEqual(c["scores"][name]["value"], value, delta=1e-12)
+        self.assertIs(c["scores"]["D1"]["reached"], False)
 
     # The fine layer of the DEM is higher by 0.13 in the first two of 26 profiles, so that its volume without a group is V + 0.01 v of a
     # slab's v, or V where the group is the first; the distance of the TFM's mean, 0 there, is 0.01 v over that volume. 15 slabs of 0.5
@@ -116,25 +117,25 @@ class Compare(unittest.TestCase):
     def test_the_interval_of_a_distance_is_of_the_reference_too(self):
         swings = at_rest(0.03, 0.06)
         swings.profiles["phi_fine"][75:77, 0] += 0.13
-        of_reference = compare(at_rest(0.03, 0.06), swings).scores["profile_fine"]
-        self.assertAlmostEqual(of_reference.value, 0.01 / 7.51, delta=1e-12)
-        self.assertAlmostEqual(of_reference.error, 0.0227387 / 7.5, delta=0.0227387 / 7.5 / 400)
-        self.assertLess(of_reference.error, 0.0227387 / 7.5)
-        of_run = compare(swings, at_rest(0.03, 0.06)).scores["profile_fine"]
-        self.assertAlmostEqual(of_run.value, 0.01 / 7.5, delta=1e-12)
-        self.assertAlmostEqual(of_run.error, 0.0227387 / 7.5, delta=1e-7)
+        of_reference = compare(at_rest(0.03, 0.06), swings)["scores"]["profile_fine"]
+        self.assertAlmostEqual(of_reference["value"], 0.01 / 7.51, delta=1e-12)
+        self.assertAlmostEqual(of_reference["error"], 0.0227387 / 7.5, delta=0.0227387 / 7.5 / 400)
+        self.assertLess(of_reference["error"], 0.0227387 / 7.5)
+        of_run = compare(swings, at_rest(0.03, 0.06))["scores"]["profile_fine"]
+        self.assertAlmostEqual(of_run["value"], 0.01 / 7.5, delta=1e-12)
+        self.assertAlmostEqual(of_run["error"], 0.0227387 / 7.5, delta=1e-7)
 
     # Rows that alternate by +-a about the mean have the variance a^2; batches of 12 rows have no mean but the mean. 251
     # rows in the window, so the last one is left over: a/251.
     def test_fluctuations_are_in_the_interval(self):
         swing = 1e-3
         c = compare(at_rest(0.03, 0.06, swing=swing), at_rest(0.03, 0.06))
-        height = c.measures["bed_height_m"]
-        self.assertAlmostEqual(height.tfm.mean, 0.06, delta=swing / 200)
-        self.assertAlmostEqual(height.tfm.error, 2.093 * swing / np.sqrt(251), delta=0.05 * swing / np.sqrt(251))
-        self.assertEqual(height.dem.error, 0)
-        self.assertEqual(height.difference_error, height.tfm.error)
-        self.assertAlmostEqual(c.scores["e_H"].error, height.tfm.error / 0.06, delta=1e-12)
+        height = c["measures"]["bed_height_m"]
+        self.assertAlmostEqual(height["tfm"], 0.06, delta=swing / 200)
+        self.assertAlmostEqual(height["tfm_error"], 2.093 * swing / np.sqrt(251), delta=0.05 * swing / np.sqrt(251))
+        self.assertEqual(height["dem_error"], 0)
+        self.assertEqual(height["difference_error"], height["tfm_error"])
+        self.assertAlmostEqual(c["scores"]["e_H"]["error"], height["tfm_error"] / 0.06, delta=1e-12)
 
     def test_only_the_time_that_both_have_is_compared(self):
         shorter, longer = at_rest(0.03, 0.06), at_rest(0.03, 0.06)
@@ -142,17 +143,17 @@ class Compare(unittest.TestCase):
             shorter.history[name] = shorter.history[name][:401]  # to 40 s
         longer.history["bed_height_m"][401:] = 0.09
         c = compare(shorter, longer)
-        self.assertAlmostEqual(c.window.begin, 30, delta=1e-12)
-        self.assertAlmostEqual(c.window.end, 40, delta=1e-12)
-        self.assertAlmostEqual(c.measures["bed_height_m"].dem.mean, 0.06, delta=1e-15)
+        self.assertAlmostEqual(c["window"]["begin_s"], 30, delta=1e-12)
+        self.assertAlmostEqual(c["window"]["end_s"], 40, delta=1e-12)
+        self.assertAlmostEqual(c["measures"]["bed_height_m"]["dem"], 0.06, delta=1e-15)
 
     def test_a_bed_that_still_rises_is_told_and_the_window_shortened(self):
         rising = at_rest(0.03, 0.06)
         rising.history["bed_height_m"][:] = 0.05 + 1e-5 * np.arange(ROWS)
         rising.drifts.append("not steady")  # as run.json says
         c = compare(rising, at_rest(0.03, 0.06))
-        self.assertTrue(c.window.shortened)
-        self.assertAlmostEqual(c.window.begin, 87.5, delta=0.1)  # at most half of the window is dropped
+        self.assertTrue(c["window"]["shortened"])
+        self.assertAlmostEqual(c["window"]["begin_s"], 87.5, delta=0.1)  # at most half of the window is dropped
         self.warned(c, "tfm: not steady")
         self.warned(c, "tfm: window too short for bed height")
 
@@ -161,11 +162,11 @@ class Compare(unittest.TestCase):
         few.profiles["time_s"] *= 0.5  # none in the window
         few.history["buoyant_weight_Pa"][:] = 0
         c = compare(few, at_rest(0.03, 0.06))
-        self.assertIsNone(c.scores["D1"].value)
-        self.assertIsNone(c.scores["D1"].reached)
-        self.assertIsNone(c.measures["interface_m"].tfm)
-        self.assertIsNotNone(c.measures["interface_m"].dem)
-        self.assertIsNone(c.measures["pressure_drop_over_weight"].difference)
+        self.assertIsNone(c["scores"]["D1"]["value"])
+        self.assertIsNone(c["scores"]["D1"]["reached"])
+        self.assertIsNone(c["measures"]["interface_m"]["tfm"])
+        self.assertIsNotNone(c["measures"]["interface_m"]["dem"])
+        self.assertIsNone(c["measures"]["pressure_drop_over_weight"]["difference"])
         self.warned(c, "output.every")
 
     def test_refuses_what_cannot_be_compared(self):
@@ -189,10 +190,10 @@ class Compare(unittest.TestCase):
         for velocity, goal in ((0.0284, 0.05), (0.0286, 0.1), (0.0324, 0.1), (0.0326, 0.05)):
             comparison = compare(at_rest(0.04, 0.08), at_rest(0.04, 0.08))
             add_inversion(comparison, scan, "scan/inversion.json", velocity)
-            self.assertEqual(comparison.scores["D1"].goal, goal, velocity)
-            self.assertEqual(comparison.scores["u_inv"].value, 0.03)
-            self.assertIs(comparison.scores["u_inv"].reached, True)
-            self.assertEqual(comparison.inversion_file, "scan/inversion.json")
+            self.assertEqual(comparison["scores"]["D1"]["goal"], goal, velocity)
+            self.assertEqual(comparison["scores"]["u_inv"]["value"], 0.03)
+            self.assertIs(comparison["scores"]["u_inv"]["reached"], True)
+            self.assertEqual(comparison["inversion_file"], "scan/inversion.json")
 
 
 class Cases(unittest.TestCase):
@@ -241,8 +242,6 @@ class Report(unittest.TestCase):
         case = type("Case", (), {"git_commit": "3", "path": "case.toml", "overrides": ["bed.seed=2"]})
         found = compare(at_rest(0.03, 0.066), at_rest(0.03, 0.06))
         plain = compare_report.plain(found, case, "out", {"tfm": ("here", record), "dem": ("there", record)})
-        height, mean = plain["measures"]["bed_height_m"], found.measures["bed_height_m"]
-        self.assertEqual((height["tfm"], height["tfm_error"], height["difference"]), (mean.tfm.mean, mean.tfm.error, mean.difference))
         self.assertIs(plain["scores"]["e_H"]["reached"], False)
         self.assertEqual(plain["scores"]["order"], {"tfm": {"species": "coarse", "certain": True},
                                                     "dem": {"species": "coarse", "certain": True}, "same": True})
