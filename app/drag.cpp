@@ -352,8 +352,10 @@ void add_drag(CLI::App& app, Commands& commands) {
   command.add_option("--voidage", options->voidage, "eps");
   command.add_option("--re", options->reynolds, "Reynolds number of the diameter and the superficial slip velocity");
   command.add_option("--sphericity", options->sphericity, "of the particles, 0.2 to 1")->check(CLI::Range(0.2, 1.0));
-  command.add_option("--shape", options->shape, "formula of the shape; the other one is printed next to it")
-      ->check(CLI::IsMember({"ganser", "haider_levenspiel"}));
+  std::vector<std::string> shapes;
+  for (const closures::ShapeLaw& law : closures::shape_laws) shapes.emplace_back(law.name);
+  command.add_option("--shape", options->shape, "formula of the shape; the others are printed next to it")
+      ->check(CLI::IsMember(shapes));
   command.add_flag("--list", options->list, "all laws with their sources");
   command.add_option("--csv", options->csv, "file with columns eps,Re or eps,Re,x1,D1,x2,D2,...");
   command.add_option("--guard", *guard, "on | off: the bare published formula")->check(CLI::IsMember({"on", "off"}));

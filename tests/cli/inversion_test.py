@@ -142,7 +142,7 @@ class WithoutARun(Scratch):
         sand = ["--set", "species.coarse.sphericity=0.9", "--set"]
         ganser, other = (strict_json(self.ends(DONE, "inversion", self.SYSTEM_B, *sand, f"effects.shape={shape}", "--json").stdout)
                          for shape in ("ganser", "haider_levenspiel"))
-        self.assertEqual(ganser["by_shapes"], {"haider_levenspiel": other["velocity_m_s"]})
+        self.assertEqual(ganser["by_shapes"]["haider_levenspiel"], other["velocity_m_s"])
         self.assertNotEqual(ganser["velocity_m_s"], other["velocity_m_s"])
         # Denser coarse particles turn the two criteria around: between them neither says mixed.
         turned = ["--set", "species.coarse.density=1200"]

@@ -178,12 +178,12 @@ class Numbers(Scratch):
             self.assertIn(part, done.stderr)
         low, high = map(float, re.search(r"band: ([\d.]+) .* to ([\d.]+) ", done.stderr).groups())
         self.assertTrue(low <= 24.445 and high >= 24.444)
-        # By hand: in creeping flow Ganser's factor is (1 + 2 psi^-1/2)/3, and the other formula has none.
-        point = ["drag", "--law", "stokes", "--voidage", "1", "--re", "1e-12", "--sphericity", "0.81"]
+        # By hand: in creeping flow Ganser's factor is (1 + 2 psi^-1/2)/3, that of Haider and Levenspiel is 1, and Ergun's 1/psi^2.
+        point = ["drag", "--law", "stokes", "--voidage", "1", "--re", "1e-12", "--sphericity", "0.81", "--shape", "ganser"]
         found = strict_json(self.ends(DONE, *point, "--json").stdout)
         self.assertAlmostEqual(found["f"], (1 + 2 / 0.9) / 3, delta=1e-6)
         self.assertAlmostEqual(found["f_by_shape"]["haider_levenspiel"], 1, delta=1e-5)
-        self.assertIn("sphericity 0.81, shape ganser; by haider_levenspiel f = 1", self.ends(DONE, *point).stderr)
+        self.assertIn("sphericity 0.81, shape ganser; by ergun f = 1.5242; by haider_levenspiel f = 1", self.ends(DONE, *point).stderr)
 
     def test_sources_name_the_papers(self):
         listed = self.ends(DONE, "drag", "--list").stdout
