@@ -11,6 +11,7 @@
 #include "core/numerics/schedule.hpp"
 #include "core/output/json.hpp"
 #include "core/print.hpp"
+#include "dem/coupling/kernel.hpp"
 #include "dem/observers.hpp"
 #include "dem/settling.hpp"
 #include "multiscale/fluid_report.hpp"
@@ -157,8 +158,10 @@ class DemRun final : public CaseRun {
   /// Warnings about the step and the contacts, from the case alone.
   [[nodiscard]] std::vector<std::string> warnings_before() const {
     std::vector<std::string> lines;
+    const dem::Coupling* coupling = model_.coupling();
     for (const std::string& line :
-         {model_.limits().warning, model_.overlap_expected().warning, fluid_every_warning(scene_, model_.limits().dt)})
+         {model_.limits().warning, model_.overlap_expected().warning, fluid_every_warning(scene_, model_.limits().dt),
+          coupling ? dem::smearing_warning(scene_, coupling->kernel_width()) : std::string()})
       if (!line.empty()) lines.push_back(line);
     return lines;
   }

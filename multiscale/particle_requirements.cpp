@@ -125,6 +125,7 @@ std::optional<FluidNeed> fluid_need(const core::Scene& scene, const dem::Materia
   need.kernel = dem::kernel_of(scene, grid.smallest_spacing(), materials.greatest_diameter(), particles);
   need.memory = bytes_per_cell * double(need.cells);
   need.warning = fluid_every_warning(scene, dt);
+  need.smearing = dem::smearing_warning(scene, need.kernel.width);
   return need;
 }
 
@@ -163,7 +164,8 @@ std::int64_t ParticleRequirements::count() const { return sum_of(numbers); }
 
 std::vector<std::string> ParticleRequirements::warnings() const {
   std::vector<std::string> lines;
-  for (const std::string& line : {limits.warning, overlap.warning, fluid ? fluid->warning : std::string()})
+  for (const std::string& line : {limits.warning, overlap.warning, fluid ? fluid->warning : std::string(),
+                                  fluid ? fluid->smearing : std::string()})
     if (!line.empty()) lines.push_back(line);
   return lines;
 }

@@ -22,8 +22,9 @@ struct FluidNeed {
   double steps = 0;  ///< in the whole run
   std::size_t cells = 0;
   dem::Kernel kernel;
-  double memory = 0;    ///< bytes
-  std::string warning;  ///< for steps that are too long; empty otherwise
+  double memory = 0;     ///< bytes
+  std::string warning;   ///< for steps that are too long; empty otherwise
+  std::string smearing;  ///< warning about the kernel's width; empty otherwise
 };
 
 struct ParticleRequirements {

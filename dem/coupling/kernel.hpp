@@ -17,4 +17,8 @@ struct Kernel {
 [[nodiscard]] Kernel kernel_of(const core::Scene& scene, double smallest_cell, double largest_diameter,
                                std::int64_t particles);
 
+/// Warning if an automatic width is so large a part of the bed's height that its drag is noticeably too small; empty
+/// otherwise. \param width  m
+[[nodiscard]] std::string smearing_warning(const core::Scene& scene, double width);
+
 }  // namespace polybed::dem

@@ -237,6 +237,10 @@ class Check(Bed):
             self.assertRegex(text, line)
         finer = self.ends(DONE, "check", self.case, "--details", "--set", "column.cells=[6,36]").stdout
         self.assertIn("kernel diffusion, 8 mm wide: 4 of the largest diameters, as the smallest cell has only 0.833", finer)
+        smeared = "the fluid sees the particles averaged over 8 mm"
+        self.assertIn(smeared, finer)
+        for other in (text, self.ends(DONE, "check", self.case, "--details", "--set", "column.cells=[6,36]", "--set", "dem.kernel_width=8 mm").stdout):
+            self.assertNotIn(smeared, other)
 
     def test_steps_of_the_fluid_fit_a_jet(self):
         case = self.write("jet.toml", JET)
