@@ -188,6 +188,8 @@ def run(case: Place, model: str = "tfm", overrides: Overrides | None = None, out
     words = settings(overrides, until)
     known = resolved(case, words)
     place = Path(output) if output else folder_of(case, model, known[1][:DIGITS])
+    if resume and not has_checkpoint(place):
+        teller(quiet, label)(f"warning: {place} has no run to continue: it begins at 0 s\n")
     return made(case, model, words, known, ranks, teller(quiet, label), place, resume)
 
 

@@ -99,7 +99,9 @@ class Results(Scratch):
     def test_resume_loses_no_run(self):
         """What is in the folder reaches 4 ms; from its checkpoint a run shows no earlier time."""
         keys, folder = SHORT | {"output.checkpoint_every": "1 ms"}, self.folder / "run"
-        before = polybed.run(CASE, "tfm", keys, folder, "4 ms", quiet=True)
+        with contextlib.redirect_stderr(io.StringIO()) as shown:
+            before = polybed.run(CASE, "tfm", keys, folder, "4 ms", resume=True)
+        self.assertIn("run has no run to continue: it begins at 0 s\n", shown.getvalue())
         files = program.lasting(folder)
         for model, overrides, wrong in (("dem", {}, "contains a run by tfm"), ("tfm", {"inlet.superficial_velocity": 0.03}, "of another case"),
                                         ("tfm", {"tfm.rtol": 2e-3}, "the checkpoint is of another case")):
