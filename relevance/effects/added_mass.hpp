@@ -34,7 +34,7 @@ inline const Effect added_mass{
     .role = "added_mass",
     .help = "fluid that a particle drags along when it accelerates",
     .laws = {{"zuber", "of a sphere among others", "C_m = (1 + 2 phi)/(2 (1 - phi)), Zuber 1964"},
-             {"half", "of one sphere: half the mass of the fluid that it displaces", "C_m = 1/2"}},
+             {"half", "of one sphere: half the mass of the fluid that it displaces", "C_m = 1/2; Lamb 1932"}},
     .rules = {needs_a_fluid("added_mass"), idle_in_a_sheared_box("added_mass")},
     .number = "C_m s/(1 + C_m s)",
     .phrase = "fluid that speeds up with the particles: {} the mass in motion",

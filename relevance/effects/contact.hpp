@@ -34,9 +34,10 @@ inline const Effect contact{
     .role = "contact",
     .help = "forces of touching particles",
     .absent = "part of the solids stress in the two-fluid model",
-    .laws = {{"hertz_mindlin", "Hertz's normal force and friction by dem.tangential"},
-             {"hertz", "Hertz's normal force alone: no friction, no rotation"},
-             {"linear", "linear springs, dem.normal_stiffness"}},
+    .laws = {{"hertz_mindlin", "Hertz's normal force and friction by dem.tangential",
+              "Hertz 1882; Mindlin and Deresiewicz 1953"},
+             {"hertz", "Hertz's normal force alone: no friction, no rotation", "Hertz 1882"},
+             {"linear", "linear springs, dem.normal_stiffness", "Cundall and Strack 1979"}},
     .number = "solids fraction",
     .weigh = weigh_contact,
     .traits = {

@@ -51,8 +51,9 @@ inline const Effect granular_temperature{
     .help = "velocity fluctuations of particles, which the kinetic stress depends on",
     .absent = "particles have velocities of their own",
     .laws = {{"algebraic", "in balance in each cell; the default with solids_stress = kinetic",
-              "production, collisions and drag in balance"},
-             {"transported", "one equation for each species"}},
+              "production, collisions and drag in balance, by the theory of solids_stress = kinetic"},
+             {"transported", "one equation for each species",
+              "Lun, Savage, Jeffrey and Chepurniy 1984, or Garzo and Dufty 1999"}},
     .rules =
         joined({{{{"effects.solids_stress", "effects.granular_temperature", "species.restitution", "dem.restitution"},
                   "effects.granular_temperature = \"algebraic\" needs a restitution below 1: species {}",
