@@ -13,6 +13,7 @@
 #include "app/study_request.hpp"
 #include "core/case/file.hpp"
 #include "core/output/json.hpp"
+#include "multiscale/card/velocity_text.hpp"
 #include "multiscale/roles.hpp"
 #include "multiscale/scene_rules.hpp"
 #include "relevance/drag_law.hpp"
@@ -318,8 +319,9 @@ void run_without_a_run(const InversionOptions& options) {
     core::print("no inversion point between voidage 0.2 and 1 by {} with {}{}\n", options.method, name,
                 reason_of(scene));
   for (const InversionPoint& p : points) {
-    core::print("inversion at {:.2f} mm/s, voidage {:.4f} ({}, {})\n", 1e3 * p.velocity, p.voidage, options.method,
-                name);
+    const double area = scene.places.has("inlet.flow_rate") ? scene.column.cross_section() : 0;
+    core::print("inversion at {:.2f} mm/s{}, voidage {:.4f} ({}, {})\n", 1e3 * p.velocity,
+                multiscale::flow_text(p.velocity, area), p.voidage, options.method, name);
     if (const auto top = top_below(p))
       core::print("  at lower velocities {} is on top, at higher ones {}\n", scene.species[*top].name,
                   scene.species[1 - *top].name);

@@ -44,8 +44,6 @@ std::string times_text(double ratio) {
   return std::abs(ratio - 1) < 0.05 ? fmt::format("{:.3g}", ratio) : fmt::format("{:.2g}", ratio);
 }
 
-constexpr double litres_per_hour = 3.6e6;  // of a m3/s
-
 /// Where the fluidisation of several species begins and ends, and what the packing makes of it; empty if neither is
 /// known.
 std::string spread_text(const BedOfCase& bed) {
@@ -87,9 +85,14 @@ std::string velocity_text(double velocity, double area) { return velocities_text
 std::string velocities_text(double low, double high, double area) {
   std::string text = range_text(low, high, "m/s");
   if (!(area > 0)) return text;
-  const std::string least = fmt::format("{:.3g}", litres_per_hour * area * low),
-                    most = fmt::format("{:.3g}", litres_per_hour * area * high);
-  return text + " (" + (least == most ? "" : least + " to ") + most + " l/h)";
+  const std::string least = flow_text(low, area), most = flow_text(high, area);
+  constexpr std::size_t begin = 2, end = 5;  // characters before and after the number
+  return text + (least == most ? most : least.substr(0, least.size() - end) + " to " + most.substr(begin));
+}
+
+std::string flow_text(double velocity, double area) {
+  constexpr double litres_per_hour = 3.6e6;  // of a m3/s
+  return area > 0 ? fmt::format(" ({:.3g} l/h)", litres_per_hour * area * velocity) : "";
 }
 
 std::string mass_text(double mass) { return mass < 1 ? with_prefix(1e3 * mass, "g") : fmt::format("{:.4g} kg", mass); }

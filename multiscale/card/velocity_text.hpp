@@ -20,6 +20,9 @@ namespace polybed::multiscale {
 [[nodiscard]] std::string velocity_text(double velocity, double area);
 [[nodiscard]] std::string velocities_text(double low, double high, double area);
 
+/// " (407 l/h)", empty for an area of 0.
+[[nodiscard]] std::string flow_text(double velocity, double area);
+
 /// kg or less.
 [[nodiscard]] std::string mass_text(double mass);
 [[nodiscard]] std::string masses_text(const std::vector<std::pair<std::string, double>>& masses);

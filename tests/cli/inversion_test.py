@@ -153,6 +153,11 @@ class WithoutARun(Scratch):
         self.assertIn("inversion.measured", self.ends(WRONG_CASE, "inversion", self.SYSTEM_B, "--set",
                                                       "inversion.measured=[0.03, 0.02]").stderr)
 
+    def test_a_case_in_litres_per_hour_is_answered_so(self):
+        """By hand: 34.27 mm/s through 60 mm times 4.06 mm are 30.1 l/h."""
+        text = re.sub(r"superficial_velocity *= .*", 'flow_rate = "26 l/h"', self.SYSTEM_B.read_text())
+        self.assertIn("inversion at 34.27 mm/s (30.1 l/h), ", self.ends(DONE, "inversion", self.write("case.toml", text)).stdout)
+
     def test_all_methods_are_what_each_says_alone(self):
         rows = strict_json(self.ends(DONE, "inversion", self.SYSTEM_B, "--method", "all", "--json").stdout)["methods"]
         laws = [law["law"] for role in strict_json(self.ends(DONE, "list", "--json").stdout)["roles"] if role["role"] == "drag"
