@@ -34,7 +34,7 @@ class RunsOfModel:
     def __init__(self, request, model, name, table, overrides):
         """name: of the scan, and of its folder; table: hash of its table of the solids stress, or empty"""
         self.request, self.model, self.name, self.table, self.overrides = request, model, name, table, overrides
-        self.runs, self.velocities = [], []
+        self.runs, self.velocities, self.integrators = [], [], []
 
     def scan(self):
         found = search(self.request["from_m_s"], self.request["to_m_s"], self.mean_at)
@@ -49,23 +49,23 @@ class RunsOfModel:
             again = "--resume" if has_checkpoint(directory) else "--force"  # replaces what a killed run has left without a checkpoint
             run(self.model, case.path, *words_of(case.overrides), "-o", directory, again, "--quiet", "--no-picture",
                 *flags(self.request, "permissive"))
-        made = measure(directory)
-        made.reused = reused
+        made, integrator = measure(directory)
         self.runs.append(made)
         self.velocities.append(velocity)
+        self.integrators.append(integrator)
         if speaks(self.request):
-            say(report.line(self.name, velocity, None if source is None else self.velocities[source], made))
-        return Mean(made.centre_difference, made.error)
+            say(report.line(self.name, velocity, None if source is None else self.velocities[source], made, reused))
+        return Mean(made["centre_difference"], made["error"])
 
     def start_of(self, velocity, source):
         """What a run begins with. One that goes on from another has its velocity at first, which its fields are of, and its integrator,
         which would else be chosen by the velocity."""
         if source is None:
             return [f"inlet.superficial_velocity={velocity!r}"]
-        before = self.runs[source]
+        checkpoint = os.path.join(self.runs[source]["directory"], "checkpoint.h5")
         ramp = [[0.0, self.velocities[source]], [RAMP_SHARE * self.request["until_s"], velocity]]
-        start = [f"inlet.superficial_velocity={ramp}", f'bed.start="checkpoint:{os.path.join(before.directory, "checkpoint.h5")}"']
-        return start + ([f'tfm.integrator="{before.integrator}"'] if self.model == "tfm" else [])
+        start = [f"inlet.superficial_velocity={ramp}", f'bed.start="checkpoint:{checkpoint}"']
+        return start + ([f'tfm.integrator="{self.integrators[source]}"'] if self.model == "tfm" else [])
 
 
 def speaks(request):
@@ -86,7 +86,8 @@ def finished(directory):
 
 
 def measure(directory):
-    """What a finished run has measured, as a scan looks at it."""
+    """What a finished run has measured, as inversion.json has it, and its integrator. Warnings say what is not steady; the interface is that
+    of the mean profile of the window."""
     (begin, end, _), [run], _ = means_of(directory)
     b, height = (run.means.get(name) for name in ("centre_difference", "bed_height_m"))
     if b is None or height is None or b.error is None:
@@ -97,8 +98,10 @@ def measure(directory):
     path = Path(directory) / "run.json"
     record = read_record(path)
     with contents_of(path):
-        return report.RunOfScan(b.mean, b.error, height.mean, height.error, begin, end, record["cpu_s"], directory, record["git_commit"],
-                                drift_lines(record), over_height, record["integrator"])
+        run = {"centre_difference": b.mean, "error": b.error, "bed_height_m": height.mean, "bed_height_error_m": height.error, "begin_s": begin,
+               "end_s": end, "cpu_s": record["cpu_s"], "directory": directory, "git_commit": record["git_commit"],
+               "warnings": drift_lines(record), "interface_over_height": over_height}
+        return run, record["integrator"]
 
 
 def choice_of(keys):

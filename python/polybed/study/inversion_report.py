@@ -1,7 +1,7 @@
 """What a scan for the inversion velocity has found, by one model or by both: as lines and as inversion.json."""
 
 import math
-from dataclasses import asdict, dataclass, field
+from dataclasses import dataclass, field
 
 from polybed.study.inversion_search import Found
 
@@ -10,44 +10,21 @@ GOAL = 0.05  # relative difference of the models' velocities
 
 
 @dataclass
-class RunOfScan:
-    """A run of a scan with what its folder tells; the names are those of inversion.json."""
-    centre_difference: float
-    error: float
-    bed_height_m: float
-    bed_height_error_m: float
-    begin_s: float  # of the window
-    end_s: float
-    cpu_s: float
-    directory: str
-    git_commit: str
-    warnings: list  # what is not steady
-    interface_over_height: float | None = None  # of the mean profile of the window; None without one or without an interface
-    integrator: str = ""
-    reused: bool = False  # finished before
-
-    def plain(self):
-        found = asdict(self)
-        del found["integrator"], found["reused"]
-        return found
-
-
-@dataclass
 class ScanOfModel:
     model: str
     found: Found
-    runs: list
+    runs: list  # as inversion.json has them, in the order of the steps
     # Scans of the same range with the case's table of the solids stress at minus and plus one standard error; none where that was not
     # asked for.
     moved: list = field(default_factory=list)
 
     def plain(self):
         found = self.found
-        steps = [{"velocity_m_s": step.velocity, "from": step.source} | run.plain()
+        steps = [{"velocity_m_s": step.velocity, "from": step.source} | run
                  for step, run in zip(found.steps, self.runs, strict=True)]
         plain = {"outcome": found.outcome, "velocity_m_s": found.velocity, "error_m_s": found.error, "low_m_s": found.low,
                  "high_m_s": found.high, "slope_s_m": found.slope, "mixed": mixed_interval(self),
-                 "cpu_s": sum(run.cpu_s for run in self.runs), "runs": steps}
+                 "cpu_s": sum(run["cpu_s"] for run in self.runs), "runs": steps}
         if self.moved:
             low, high = stress_band(self) or (None, None)
             minus, plus = self.moved
@@ -60,7 +37,8 @@ def mixed_velocities(scan):
     """By velocity, m/s, whether the bed is mixed: with several runs, in all of them."""
     mixed = {}
     for step, run in zip(scan.found.steps, scan.runs, strict=True):
-        at_height = run.interface_over_height is not None and run.interface_over_height >= AT_HEIGHT
+        interface = run["interface_over_height"]
+        at_height = interface is not None and interface >= AT_HEIGHT
         mixed[step.velocity] = mixed.get(step.velocity, True) and at_height
     return mixed
 
@@ -89,7 +67,7 @@ def stress_band(scan):
 def drifting(scan):
     """How many runs from one end of the bracket to the other still drift, and how many there are."""
     there = [run for step, run in zip(scan.found.steps, scan.runs, strict=True) if scan.found.low <= step.velocity <= scan.found.high]
-    return sum(bool(run.warnings) for run in there), len(there)
+    return sum(bool(run["warnings"]) for run in there), len(there)
 
 
 def agreement_of(scans):
@@ -109,13 +87,13 @@ def head():
     return f"{'model':5} {'mm/s':>8} {'from mm/s':>10} {'centre_difference':>20} {'bed height, mm':>16} {'CPU s':>8}"
 
 
-def line(name, velocity, source, run):
-    """The entry of a run. source: velocity of the run that it continues, m/s, or None"""
+def line(name, velocity, source, run, reused):
+    """The entry of a run. source: velocity of the run that it continues, m/s, or None; reused: whether it was finished before"""
     begun = "start" if source is None else f"{1e3 * source:.2f}"
     mean, height = (f"{value:{digits}} +-{error:.1g}" for value, digits, error in (
-        (run.centre_difference, ".4f", run.error), (1e3 * run.bed_height_m, ".1f", 1e3 * run.bed_height_error_m)))
-    marks = ("  finished before" if run.reused else "") + ("  not steady" if run.warnings else "")
-    return f"{name:5} {1e3 * velocity:8.2f} {begun:>10} {mean:>20} {height:>16} {run.cpu_s:8.3g}{marks}"
+        (run["centre_difference"], ".4f", run["error"]), (1e3 * run["bed_height_m"], ".1f", 1e3 * run["bed_height_error_m"])))
+    marks = ("  finished before" if reused else "") + ("  not steady" if run["warnings"] else "")
+    return f"{name:5} {1e3 * velocity:8.2f} {begun:>10} {mean:>20} {height:>16} {run['cpu_s']:8.3g}{marks}"
 
 
 def finding(scan, species):

@@ -118,20 +118,20 @@ class Report(unittest.TestCase):
         runs = [(25, 0.45), (28, 0.99), (31, 1.0), (34, 1.0), (34, 0.9), (36, None)]
         found = scan(30.0, 0.1, 28, 31)
         found.found.steps = [Step(u, None, Mean(0, 1)) for u, _ in runs]
-        found.runs = [report.RunOfScan(0, 0, 1, 0, 0, 1, 1, "", "", [], interface) for _, interface in runs]
+        found.runs = [{"interface_over_height": interface, "warnings": []} for _, interface in runs]
         self.assertEqual(report.mixed_interval(found), {"least_m_s": 28, "greatest_m_s": 31, "below_m_s": 25, "above_m_s": 34})
         self.assertIn("from 2.8e+04 (not at 2.5e+04) to 3.1e+04 (not at 3.4e+04) mm/s", report.findings([found], None))
-        found.runs = [report.RunOfScan(0, 0, 1, 0, 0, 1, 1, "", "", [], 0.97) for _ in runs]
+        found.runs = [{"interface_over_height": 0.97, "warnings": []} for _ in runs]
         self.assertIsNone(report.mixed_interval(found))
 
     def test_runs_that_drift_at_the_bracket_leave_it_undecided(self):
         both = [scan(30.0, 0.1, 28, 31), scan(30.1, 0.1, 28, 31, "dem")]
         for one in both:
             one.found.steps = [Step(u, None, Mean(0, 1)) for u in (25, 28, 31)]
-            one.runs = [report.RunOfScan(0, 0, 1, 0, 0, 1, 1, "", "", drifts, 1.0) for drifts in (["not steady"], [], [])]
+            one.runs = [{"interface_over_height": 1.0, "warnings": drifts} for drifts in (["not steady"], [], [])]
         self.assertNotIn("undecided", report.findings(both, None))
         self.assertTrue(report.agreement_of(both)["reached"])
-        both[1].runs[2].warnings.append("not steady: drift of bed_height")
+        both[1].runs[2]["warnings"].append("not steady: drift of bed_height")
         self.assertIn("dem: undecided: 1 of 2 runs in the bracket still drift", report.findings(both, None))
         self.assertIn("undecided, runs still drift", report.findings(both, None))
         self.assertIsNone(report.agreement_of(both)["reached"])
