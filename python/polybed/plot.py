@@ -101,17 +101,10 @@ def draw_one(run, what, time, folder, ending, rate=None, progress=None):
         raise StudyError(WRONG_CASE, f"--what {what}: {run.directory} holds no {what}; there are {', '.join(kinds_of(run))}")
     if what == "animation":
         return animation.film(run, folder / ("animation.mp4" if animation.has_ffmpeg() else "animation.gif"), rate, progress)
-    if what == "overview":
-        figure = overview.draw(run, step)
-    elif what == "fields":
-        figure = fields.draw(run, run.step_at(shown))
-    elif what == "particles":
-        figure = particles.draw(run, step)
-    elif what == "profiles":
-        figure = profiles.draw(run, shown)
-    else:
-        figure = history.draw(run, None if time is None else shown)
-    return save(figure, folder / f"{what}.{ending}")
+    draw = {"overview": lambda: overview.draw(run, step), "fields": lambda: fields.draw(run, run.step_at(shown)),
+            "particles": lambda: particles.draw(run, step), "profiles": lambda: profiles.draw(run, shown),
+            "history": lambda: history.draw(run, None if time is None else shown)}
+    return save(draw[what](), folder / f"{what}.{ending}")
 
 
 def pictures(directory, what=None, time=None, out=None, ending="png", rate=None, progress=None):

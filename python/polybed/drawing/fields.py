@@ -3,7 +3,7 @@
 import numpy as np
 
 from polybed.drawing.maps import Group, draw_maps
-from polybed.drawing.style import FEW_SOLIDS, TRACE, greatest_fraction, in_plane, shown_height, title_of, vector_in_plane
+from polybed.drawing.style import FEW_SOLIDS, TRACE, greatest_fraction, in_plane, shown_height, title_of
 from polybed.drawing.units import fitting
 
 THIN = 0.05  # of the scale of all species, on which less looks like nothing
@@ -35,11 +35,11 @@ def velocities(run, step):
     """Vertical velocities on one symmetric scale; where a species is absent it has none to show."""
     maps = []
     for name in [n for n in run.species if f"u_{n}" in run.fields]:
-        up = vector_in_plane(run.field(f"u_{name}")[step])[..., 1]
+        up = in_plane(run.field(f"u_{name}")[step][..., 1])
         present = in_plane(run.field(f"phi_{name}")[step]) > FEW_SOLIDS
         maps.append((name, np.ma.masked_where(~present, up)))
     if "u_fluid" in run.fields:
-        maps.append(("fluid", vector_in_plane(run.field("u_fluid")[step])[..., 1]))
+        maps.append(("fluid", in_plane(run.field("u_fluid")[step][..., 1])))
     most = max([1e-6] + [float(np.abs(values).max()) for _, values in maps if np.ma.count(values)])
     factor, unit = fitting("m/s", most)
     most = float(f"{most * factor:.2g}")  # two digits on the scale; a colour at its end is not to be read closer

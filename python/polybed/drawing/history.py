@@ -78,21 +78,18 @@ def draw_ledger(axes, run):
     axes.legend(loc="center left", bbox_to_anchor=(1.01, 0.5), fontsize=8)
 
 
-def draw_series(axes, time, values, unit, label, **line):
-    """A quantity in time, from 0 on, in the unit that fits."""
-    factor, shown = fitting(unit, np.nanmax(values, initial=0))
-    axes.plot(time, values * factor, color=GREY, **line)
+def draw_series(axes, time, series, unit, label):
+    """Quantities in time, from 0 on, in the unit that fits. series: (values, looks of the line)"""
+    factor, shown = fitting(unit, max(np.nanmax(values, initial=0) for values, _ in series))
+    for values, line in series:
+        axes.plot(time, values * factor, **line)
     axes.set_ylim(bottom=0)
     axes.set_ylabel(label + (f" ({shown})" if shown else ""))
 
 
 def draw_species(axes, run, values, unit, label):
-    factor, shown = fitting(unit, max(np.nanmax(v, initial=0) for v in values.values()))
-    for n, name in enumerate(run.kinds):
-        if name in values:
-            axes.plot(run.history["time_s"], values[name] * factor, linewidth=1, **species_line(n))
-    axes.set_ylim(bottom=0)
-    axes.set_ylabel(f"{label}" + (f" ({shown})" if shown else ""))
+    lines = [(values[name], {"linewidth": 1, **species_line(n)}) for n, name in enumerate(run.kinds) if name in values]
+    draw_series(axes, run.history["time_s"], lines, unit, label)
 
 
 def draw_invariants(axes, run):
@@ -127,7 +124,7 @@ def panels(run):
                    (1.2, lambda axes: draw_species(axes, run, shares, "1", "recovery"))]
         time, rate = discharge_rate(history, run.kinds)
         if len(time):
-            chosen.append((1.2, lambda axes: draw_series(axes, time, rate, "kg/s", "discharge\nrate", linewidth=1)))
+            chosen.append((1.2, lambda axes: draw_series(axes, time, [(rate, {"color": GREY, "linewidth": 1})], "kg/s", "discharge\nrate")))
     if "mixing" in history and len(run.species) > 1:
         chosen.append((1, lambda axes: draw_mixing(axes, run)))
     if set(LEDGER[:3]) <= history.keys():
@@ -136,7 +133,8 @@ def panels(run):
         chosen.append((1.4, lambda axes: draw_ledger(axes, run)))
     for column, unit, label in (("contacts", "1", "contacts"), ("max_overlap_m", "m", "largest\noverlap")):
         if column in history:
-            chosen.append((1, functools.partial(draw_series, time=history["time_s"], values=history[column], unit=unit, label=label, linewidth=0.8)))
+            line = (history[column], {"color": GREY, "linewidth": 0.8})
+            chosen.append((1, functools.partial(draw_series, time=history["time_s"], series=[line], unit=unit, label=label)))
     if "dt_s" in history and (history["dt_s"] > 0).any():
         chosen.append((1, lambda axes: draw_steps(axes, run)))
     return chosen

@@ -66,13 +66,8 @@ def length_unit(run):
 
 
 def in_plane(field):
-    """A field as [y][x]: of a 3-D run the plane at half depth. A vector keeps its components last."""
+    """A field without components as [y][x]: of a 3-D run the plane at half depth."""
     return field[field.shape[0] // 2] if field.ndim == 3 else field
-
-
-def vector_in_plane(field):
-    """A vector field as [y][x][component], as in_plane."""
-    return field[field.shape[0] // 2] if field.ndim == 4 else field
 
 
 def around_axis(run):

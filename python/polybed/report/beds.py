@@ -3,7 +3,7 @@
 import numpy as np
 
 from polybed.drawing.maps import walls_of
-from polybed.drawing.style import COLOURS, FEW_SOLIDS, around_axis, as_shown, faces_across, in_plane, length_unit, vector_in_plane
+from polybed.drawing.style import COLOURS, FEW_SOLIDS, around_axis, as_shown, faces_across, in_plane, length_unit
 from polybed.drawing.units import fitting
 from polybed.particles import step_shown
 from polybed.read import kinds_among
@@ -41,7 +41,7 @@ def read_maps(run, chosen, share):
     for step in chosen:
         fields = run.fields_at(int(step), [one for of_map in parts.values() for one in of_map])
         for name, label, kind in names:
-            planes = [vector_in_plane(fields[one])[..., 1] if kind == "velocity" else in_plane(fields[one]) for one in parts[name]]
+            planes = [in_plane(fields[one][..., 1]) if kind == "velocity" else in_plane(fields[one]) for one in parts[name]]
             if kind == "velocity" and f"phi_{label}" in parts:
                 shares = [in_plane(fields[one]) for one in parts[f"phi_{label}"]]
                 plane = np.where(sum(shares) > FEW_SOLIDS, mean_over(planes, shares), np.nan)

@@ -94,8 +94,7 @@ def effects(record, case):
     laws = [list(law) for law in case.get("effects", {}).items()]
     found = table(["acts", "law"], laws, "words") if laws else Html()
     neglected = record.get("neglected", {})
-    rows = sorted(neglected.get("rows", []), key=lambda row: -1 if row.get("bound") is None else -row["bound"])
-    rows.sort(key=lambda row: row.get("bound") is None)
+    rows = sorted(neglected.get("rows", []), key=lambda row: (row.get("bound") is None, -(row.get("bound") or 0)))
     shown = [[row["effect"].replace("_", " "), bound_of(row), row.get("number") or "", row.get("reason") or ""] for row in rows if "effect" in row]
     if shown:
         found += Html("<h3>Left out</h3>") + table(["effect", "bound", "judged by", "why"], shown, "words")
