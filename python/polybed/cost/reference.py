@@ -46,7 +46,7 @@ def exact_reference(sweeper):
     sweep = sweeper.sweep
     if sweeper.scene.is_tapered:
         return sweep.refuse("no exact value in a column that tapers: one is known of a uniform bed")
-    found = sweep.rows[sweeper.run(Row(RunOrder("force_balance"), REFERENCE, note="force balance"))]
+    found = sweeper.run(Row(RunOrder("force_balance"), REFERENCE, note="force balance"))
     if len(sweeper.scene.species) > 1 or not found.done or sweep.ranking not in found.measured.values:
         return sweep.refuse("no exact value of this quantity: one is known of the height and the pressure drop of a bed of one species "
                             "that is carried")
@@ -60,7 +60,7 @@ def statistical_reference(sweeper):
     if grid:
         settings["grid"] = len(grid.levels) - 1
     order = sweeper.order_of(settings, (setting("run.until", 1.5 * sweeper.scene.of("run.until")),))
-    found = sweep.rows[sweeper.run(Row(order, REFERENCE, settings, "reference: finest and three windows long"), 0.6)]
+    found = sweeper.run(Row(order, REFERENCE, settings, "reference: finest and three windows long"), 0.6)
     for level in reversed(range(len(grid.levels) if grid else 0)):
         found = found if found.done else sweeper.row_on_line("grid", level) or found
     if not found.done:
@@ -82,11 +82,10 @@ def additive_reference(sweeper):
     """Time by a run two levels beyond and one of another family, on the coarsest grid, whose errors in time are those of the others as far
     as errors add up; space by Richardson's value of the line of grids."""
     sweep = sweeper.sweep
-    one = sweep.rows[sweeper.run(Row(sweeper.tight(), REFERENCE, note="reference: tolerances tighter than all"))]
+    one = sweeper.run(Row(sweeper.tight(), REFERENCE, note="reference: tolerances tighter than all"))
     if not one.done:
         return
-    family = Row(sweeper.tight((other_family(sweeper, one),)), REFERENCE, note="reference by another integrator")
-    two = sweep.rows[sweeper.run(family)]
+    two = sweeper.run(Row(sweeper.tight((other_family(sweeper, one),)), REFERENCE, note="reference by another integrator"))
     if not two.done:
         return sweep.refuse(f"no second integrator to check the reference by: {two.outcome.reason}")
     note = "tolerances two levels tighter than the tightest, checked by another kind of integrator"

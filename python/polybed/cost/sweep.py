@@ -101,5 +101,5 @@ class Sweep:
         return next((axis for axis in self.axes if axis.name == name), None)
 
     def find(self, order, kind):
-        """Number of the row of this order and kind; None if there is none."""
-        return next((n for n, row in enumerate(self.rows) if row.kind == kind and row.order == order), None)
+        """The row of this order and kind; None if there is none."""
+        return next((row for row in self.rows if row.kind == kind and row.order == order), None)

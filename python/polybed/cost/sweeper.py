@@ -59,11 +59,7 @@ class Sweeper:
         self.sweep.on = measure_on(scene.keys, WINDOW_BEGIN * scene.of("run.until"))
         options.quantities = checked_quantities(options, [q.id for q in self.sweep.quantities], scene.species)
         self.centre = {axis.name: 0 if axis.name == "grid" else axis.given for axis in self.sweep.axes}
-        self.centre_number = 0
-
-    @property
-    def centre_row(self):
-        return self.sweep.rows[self.centre_number]
+        self.centre_row = None
 
     def tell(self, text):
         if not self.sweep.options.quiet:
@@ -84,8 +80,8 @@ class Sweeper:
 
     def row_on_line(self, name, level):
         """The candidate at a level of an axis, the others as in the centre; None if it was not run to its end."""
-        n = self.sweep.find(self.order_of(self.on_line(name, level)), CANDIDATE)
-        return self.sweep.rows[n] if n is not None and self.sweep.rows[n].done else None
+        row = self.sweep.find(self.order_of(self.on_line(name, level)), CANDIDATE)
+        return row if row and row.done else None
 
     def grid_ratio(self, grid, level):
         """From the next coarser grid, if that was run, in proportion to the cells; else as if a step followed the cells, too."""
@@ -110,7 +106,7 @@ class Sweeper:
         return MUCH_DEARER if axis.levels[level].model == "dem" else 1.0
 
     def expected_wall(self, settings):
-        if not self.sweep.rows or not settings:
+        if self.centre_row is None or not settings:
             return 0.0
         wall = self.centre_row.outcome.wall
         for axis in self.sweep.axes:
@@ -128,11 +124,11 @@ class Sweeper:
             row.measured.values["bed_height"] = TimeMean(height)
 
     def run(self, row, most=1.0):
-        """Runs what is not among the rows yet; returns its number. most: share of the budget that it may be expected to take"""
+        """Runs what is not among the rows yet; returns its row. most: share of the budget that it may be expected to take"""
         sweep = self.sweep
         known = sweep.find(row.order, row.kind)
-        if known is not None:
-            sweep.rows[known].predicted = row.predicted or sweep.rows[known].predicted
+        if known:
+            known.predicted = row.predicted or known.predicted
             return known
         expected = self.expected_wall(row.settings)
         if row.order.model == "force_balance":
@@ -150,7 +146,7 @@ class Sweeper:
         reason = f" ({row.outcome.reason})" if row.outcome.reason else ""
         self.tell(f"{settings_text(sweep, row)}: {row.outcome.state}{reason}")
         sweep.rows.append(row)
-        return len(sweep.rows) - 1
+        return row
 
     def run_with(self, kind, note, override):
         self.run(Row(self.order_of(self.centre, (override,)), kind, self.centre, note))
@@ -160,7 +156,7 @@ class Sweeper:
         sweep, order = self.sweep, self.order_of(self.centre)
         first = self.runner.run(order, self.left())
         history = first.measured.history if first.done else None
-        self.centre_number = self.run(Row(order, settings=self.centre))
+        self.centre_row = self.run(Row(order, settings=self.centre))
         if not first.done:
             sweep.outcome, sweep.reason = "refused" if first.state == "not run" else "failed", f"the first run: {first.reason}"
             return False
