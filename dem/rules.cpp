@@ -60,6 +60,11 @@ std::vector<core::Rule> key_rules() {
        [](const core::Scene& scene) {
          return core::broken_if(scene.column.is_round() && scene.fluid.present() &&
                                 scene.dem.own_share == core::OwnShare::removed);
+       }},
+      {{"column.grading", "dem.own_share"},
+       "column.grading and dem.own_share = \"removed\" cannot be combined yet; use dem.own_share = \"kept\"",
+       [](const core::Scene& scene) {
+         return core::broken_if(scene.column.grading && scene.dem.own_share == core::OwnShare::removed);
        }}};
   return relevance::joined({rules_of_keys(), own, feed_rules()});
 }

@@ -43,7 +43,7 @@ void Compressible::make_fields(FluidState& fluid) const {
 }
 
 double Compressible::total_pressure(double p, int j) const {
-  const double below_top = grid_.spacing[1] * grid_.column_cells(1) - grid_.centre(1, j);
+  const double below_top = grid_.column_height() - grid_.centre(1, j);
   return outlet_pressure_ + p + density_ * gravity_ * below_top;
 }
 

@@ -69,7 +69,7 @@ class FaceStress {
  private:
   /// w (2 du_a/dx_a - 2/3 div U) in cell c, over its whole cross-section.
   [[nodiscard, gnu::always_inline]] double through(core::Index c) const {
-    return metric_.volume(c) * (weight_[c] * 2 * (along(a, c) - divergence_in(c) / 3));
+    return metric_.volume(c) * metric_.per_length(a, c) * (weight_[c] * 2 * (along(a, c) - divergence_in(c) / 3));
   }
   /// div U in cell c.
   [[nodiscard, gnu::always_inline]] double divergence_in(core::Index c) const {
@@ -95,7 +95,7 @@ class FaceStress {
     return 0.5 * (metric_.open(b, c) + metric_.open(b, c - stride_[a]));
   }
   [[nodiscard, gnu::always_inline]] double along(std::size_t d, core::Index c) const {
-    return (u_[d][c + stride_[d]] - u_[d][c]) * per_length_[d];
+    return (u_[d][c + stride_[d]] - u_[d][c]) * (per_length_[d] * metric_.per_length(d, c));
   }
 
   /// w (du_a/dx_b + du_b/dx_a) on the edge below the faces c of both axes.
@@ -103,7 +103,8 @@ class FaceStress {
     const core::Index sa = stride_[a], sb = stride_[b];
     const double weight =
         0.25 * edge_(c, sa, sb) * ((weight_[c] + weight_[c - sa]) + (weight_[c - sb] + weight_[c - sa - sb]));
-    return weight * ((u_[a][c] - u_[a][c - sb]) * per_length_[b] + (u_[b][c] - u_[b][c - sa]) * per_length_[a]);
+    return weight * ((u_[a][c] - u_[a][c - sb]) * (per_length_[b] * metric_.per_distance(b, c)) +
+                     (u_[b][c] - u_[b][c - sa]) * (per_length_[a] * metric_.per_distance(a, c)));
   }
 
   Metric metric_;

@@ -61,8 +61,8 @@ namespace {
 
 /// Share of the column's cell m along an axis that lies in [from, to]; for a ring, by its area.
 double overlap(const core::Grid& grid, int axis, int m, double from, double to) {
-  const double h = grid.spacing[std::size_t(axis)];
-  const double low = std::max(from, m * h), high = std::min(to, (m + 1) * h);
+  const double h = axis == 1 ? grid.height(m) : grid.spacing[std::size_t(axis)];
+  const double low = std::max(from, grid.low(axis, m)), high = std::min(to, grid.low(axis, m + 1));
   const bool ring = axis == 0 && grid.metric && grid.metric->around_axis;
   return std::max(0.0, high - low) / h * (ring ? (low + high) / ((2 * m + 1) * h) : 1.0);
 }
@@ -139,14 +139,16 @@ void Inlet::add_port(const Side& part, double inward, Carries carries) {
   Port port{part.at, Ramp(part.superficial_velocity, inward * along), 0, carries, {}, {}};
   const std::vector<double> share = face_shares(grid_, part.from, part.to, part.at);
   std::size_t f = 0;
+  std::vector<double> area;  // in faces of the lowest layer
   for_each_boundary_row(grid_, axis, side_of(part.at), [&](Index begin, Index end) {
     for (Index c = begin; c < end; ++c, ++f) {
       if (share[f] == 0) continue;
       port.face.push_back(c);
       port.share.push_back(share[f]);
+      area.push_back(share[f] * (grid_.layers ? grid_.metric->open[std::size_t(axis)][std::size_t(c)] : 1.0));
     }
   });
-  const double faces = core::sum_of_ranks(grid_, port.share) * grid_.spacing[1] / grid_.spacing[std::size_t(axis)];
+  const double faces = core::sum_of_ranks(grid_, area) * grid_.spacing[1] / grid_.spacing[std::size_t(axis)];
   port.mean_share = along * faces / core::open_faces_below(grid_, 0);
   ports_.push_back(std::move(port));
 }

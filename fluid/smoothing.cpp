@@ -42,9 +42,13 @@ class OpenEntries {
     if (of_ >= 0 && !(metric_.open[std::size_t(of_)][std::size_t(c)] > 0)) return 0;
     return mean(metric_.volume, c);
   }
-  /// Open share between an entry and the previous one along an axis. \param stride  of the axis
+  /// Open share between an entry and the previous one along an axis, over their distance. \param stride  of the axis
   [[nodiscard]] double between(core::Index c, int axis, core::Index stride) const {
-    return volume(c) > 0 && volume(c - stride) > 0 ? mean(metric_.open[std::size_t(axis)], c) : 0;
+    if (!(volume(c) > 0 && volume(c - stride) > 0)) return 0;
+    const double per_length = axis != 1  ? 1.0
+                              : of_ == 1 ? metric_.per_height[std::size_t(c - stride)]
+                                         : metric_.per_distance[std::size_t(c)];
+    return per_length * mean(metric_.open[std::size_t(axis)], c);
   }
 
  private:
@@ -179,8 +183,9 @@ Smoothing::Sweeps Smoothing::open_sweeps(const core::Grid& grid, int of, const c
   const bool tapered = grid.metric->tapered();
   add(0, steps / 2);
   if (tapered) add(1, steps / 2);
+  if (grid.layers) add(1, steps);
   for (Sweep& upright : sweeps(grid, box, time))
-    if (upright.axis == 1 && !tapered) result.push_back(std::move(upright));
+    if (upright.axis == 1 && !tapered && !grid.layers) result.push_back(std::move(upright));
   add(2, steps);
   if (tapered) add(1, steps / 2);
   add(0, steps / 2);

@@ -54,8 +54,14 @@ double rate_of_face(const core::Grid& grid, std::size_t a, Index f) {
   for (std::size_t b = 0; b < std::size_t(grid.dimensions); ++b) {
     const auto next = std::size_t(grid.stride(int(b)));
     const core::Field& open = metric.open[b];
-    const double both = b == a ? metric.volume[low] + metric.volume[at]
-                               : 0.5 * (open[low] + open[at] + open[low + next] + open[at + next]);
+    const auto stretch = [&](const core::Field& share, std::size_t c) { return b == 1 ? share[c] : 1.0; };
+    const auto within = [&](std::size_t c) {
+      return metric.volume[c] * stretch(metric.per_height, c) * stretch(metric.per_height, c);
+    };
+    const auto through = [&](std::size_t f, std::size_t edge) { return open[f] * stretch(metric.per_distance, edge); };
+    const double both = b == a ? within(low) + within(at)
+                               : 0.5 * (through(low, at) + through(at, at) + through(low + next, at + next) +
+                                        through(at + next, at + next));
     rate += 0.5 * both * metric.per_volume_on[a][at] / (grid.spacing[b] * grid.spacing[b]);
   }
   return rate;

@@ -1,6 +1,7 @@
 #include "measures/profile.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/numerics/metric.hpp"
 #include "core/numerics/ranks.hpp"
@@ -33,7 +34,41 @@ Profile on_slabs(const Profile& profile, double slab, std::size_t count) {
   return other;
 }
 
-std::vector<double> part_of_lateral_mean(const core::Grid& grid, std::span<const double> field) {
+std::size_t slabs_of(const core::Grid& grid) {
+  return grid.layers ? std::size_t(std::lround(grid.column_height() / grid.spacing[1]))
+                     : std::size_t(grid.column_cells(1));
+}
+
+namespace {
+
+std::vector<double> even_on_slabs(const core::Grid& grid, const std::vector<double>& values) {
+  std::vector<double> slabs(slabs_of(grid), 0.0);
+  const double h = grid.spacing[1];
+  for (std::size_t y = 0; y < values.size(); ++y) {
+    const double low = grid.low(1, int(y)), high = grid.low(1, int(y) + 1);
+    for (auto k = std::size_t(low / h * (1 - 1e-12)); k < slabs.size() && double(k) * h < high; ++k)
+      slabs[k] += values[y] * std::max(0.0, std::min(high, double(k + 1) * h) - std::max(low, double(k) * h)) / h;
+  }
+  return slabs;
+}
+
+/// Beyond the outermost centres as between the two next to them.
+std::vector<double> linear_on_slabs(const core::Grid& grid, const std::vector<double>& values) {
+  std::vector<double> slabs;
+  const auto centre = [&](std::size_t y) { return 0.5 * (grid.low(1, int(y)) + grid.low(1, int(y) + 1)); };
+  std::size_t below = 0;
+  for (std::size_t k = 0; k < slabs_of(grid); ++k) {
+    const double here = (double(k) + 0.5) * grid.spacing[1];
+    while (below + 2 < values.size() && centre(below + 1) < here) ++below;
+    const double share = (here - centre(below)) / (centre(below + 1) - centre(below));
+    slabs.push_back((1 - share) * values[below] + share * values[below + 1]);
+  }
+  return slabs;
+}
+
+}  // namespace
+
+std::vector<double> part_of_lateral_mean(const core::Grid& grid, std::span<const double> field, Within layers) {
   std::vector<double> mean(std::size_t(grid.column_cells(1)), 0.0);
   const double* open = grid.metric ? grid.metric->volume.data() : nullptr;
   for (int y = 0; y < grid.cells[1]; ++y) {
@@ -44,11 +79,12 @@ std::vector<double> part_of_lateral_mean(const core::Grid& grid, std::span<const
     });
     mean[std::size_t(grid.before[1] + y)] = sum / core::open_cells_of_layer(grid, grid.before[1] + y);
   }
+  if (grid.layers) return layers == Within::even ? even_on_slabs(grid, mean) : linear_on_slabs(grid, mean);
   return mean;
 }
 
-std::vector<double> lateral_mean(const core::Grid& grid, std::span<const double> field) {
-  std::vector<double> mean = part_of_lateral_mean(grid, field);
+std::vector<double> lateral_mean(const core::Grid& grid, std::span<const double> field, Within layers) {
+  std::vector<double> mean = part_of_lateral_mean(grid, field, layers);
   core::add_over_ranks(grid, mean);
   return mean;
 }

@@ -30,10 +30,18 @@ struct Profile {
 /// volumes are kept; the part above the last slab is dropped. \param slab  thickness, m, > 0
 [[nodiscard]] Profile on_slabs(const Profile& profile, double slab, std::size_t count);
 
-/// The block's part of the mean over each horizontal layer of the column for a padded cell field; [layer from the
+/// Number of slabs of a profile: of layers of cells; graded ones are laid on slabs as thick as the lowest layer.
+[[nodiscard]] std::size_t slabs_of(const core::Grid& grid);
+
+/// Values of graded layers on slabs.
+enum class Within { even, linear };  ///< even in each layer, so that volumes are kept; linear between the centres
+
+/// The block's part of the mean over each horizontal layer of the column for a padded cell field; [slab from the
 /// bottom]. The sum over the ranks is the mean.
-[[nodiscard]] std::vector<double> part_of_lateral_mean(const core::Grid& grid, std::span<const double> field);
+[[nodiscard]] std::vector<double> part_of_lateral_mean(const core::Grid& grid, std::span<const double> field,
+                                                       Within layers = Within::even);
 /// The complete mean. Collective.
-[[nodiscard]] std::vector<double> lateral_mean(const core::Grid& grid, std::span<const double> field);
+[[nodiscard]] std::vector<double> lateral_mean(const core::Grid& grid, std::span<const double> field,
+                                               Within layers = Within::even);
 
 }  // namespace polybed::measures

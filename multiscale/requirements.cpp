@@ -27,7 +27,8 @@ std::size_t cell_count(const core::Scene& scene) {
 /// Reduces one direction to a number of cells.
 void draw_in(core::Scene& scene, std::size_t axis, int cells) {
   core::Column& column = scene.column;
-  const double share = double(cells) / column.cells[axis];
+  const double share = axis == 1 && !column.layers.empty() ? cells * column.cell(1) / column.size[1]
+                                                           : double(cells) / column.cells[axis];
   scene.bed.particles.clear();  // volume_share and static_height give the same amount
   column.profile.clear();       // a part of the inside of a round column
   column.cells[axis] = cells;
@@ -44,6 +45,7 @@ void draw_in(core::Scene& scene, std::size_t axis, int cells) {
   for (core::Discharge& discharge : scene.discharges) draw(discharge, discharge.at);
   for (core::Layer& layer : scene.layers) draw(layer, core::ColumnFace::bottom);
   if (axis == 1) {
+    column.layers.clear();  // those of the lower part remain
     scene.bed.static_height *= share;
     for (core::Layer& layer : scene.layers) layer.height *= share;
     return;
@@ -189,28 +191,8 @@ std::size_t unknowns_of(const core::Scene& scene, const tfm::Model& model) {
   return model.layout_on(grid).size();
 }
 
-}  // namespace
-
-core::Scene narrow_part(const core::Scene& scene, std::size_t most_cells) {
-  core::Scene part = scene;
-  constexpr int least = 8, least_in_depth = 6;
-  const auto& cells = part.column.cells;
-  const auto share = [&] { return double(most_cells) / double(cell_count(part)); };
-  if (part.column.dimensions == 3 && share() < 1) draw_in(part, 2, fewer(cells[2], std::sqrt(share()), least_in_depth));
-  if (share() < 1) draw_in(part, 0, fewer(cells[0], share(), least));
-  if (part.column.dimensions == 3 && share() < 1) draw_in(part, 2, fewer(cells[2], share(), least_in_depth));
-  constexpr double far_too_high = 0.1;
-  if (share() < far_too_high) {
-    draw_in(part, 1, fewer(cells[1], share(), least));
-    // The packing that carries the bed's weight depends on its height, which differs from the case's.
-    if (part.tfm.max_packing == core::MaxPacking(core::PackingRule::automatic))
-      part.tfm.max_packing = part.bed.solids_fraction + 0.05;
-  }
-  return part;
-}
-
-std::string shape_text(const core::Column& column) {
-  if (column.shape == core::ColumnShape::box) return "";
+/// Of the cross-section of a round column.
+std::string round_text(const core::Column& column) {
   const double radius = column.around_axis() ? column.size[0] : 0.5 * column.size[0];
   const std::string across = fmt::format("round, {:.4g} mm across", 2e3 * radius);
   const bool tapered = column.is_tapered();
@@ -237,6 +219,42 @@ std::string shape_text(const core::Column& column) {
       "cells are open, the smallest {:.2g} of a whole one",
       1e3 * column.profile.front().second, 1e3 * column.profile.back().second, column.narrowest() / grid.spacing[0],
       1e3 * column.cross_section() * column.even_height(column.size[1]), open, layers * cells, least);
+}
+
+std::string layers_text(const core::Column& column) {
+  const std::vector<double>& layers = column.layers;
+  return fmt::format(
+      "{} layers instead of {:.0f}: {:.4g} mm high up to {:.4g} m, then each {:.4g} times the one below, {:.4g} "
+      "mm at the top",
+      layers.size(), column.size[1] / layers.front(), 1e3 * layers.front(),
+      layers.front() * double(std::count(layers.begin(), layers.end(), layers.front())),
+      layers.back() / layers[layers.size() - 2], 1e3 * layers.back());
+}
+
+}  // namespace
+
+core::Scene narrow_part(const core::Scene& scene, std::size_t most_cells) {
+  core::Scene part = scene;
+  constexpr int least = 8, least_in_depth = 6;
+  const auto& cells = part.column.cells;
+  const auto share = [&] { return double(most_cells) / double(cell_count(part)); };
+  if (part.column.dimensions == 3 && share() < 1) draw_in(part, 2, fewer(cells[2], std::sqrt(share()), least_in_depth));
+  if (share() < 1) draw_in(part, 0, fewer(cells[0], share(), least));
+  if (part.column.dimensions == 3 && share() < 1) draw_in(part, 2, fewer(cells[2], share(), least_in_depth));
+  constexpr double far_too_high = 0.1;
+  if (share() < far_too_high) {
+    draw_in(part, 1, fewer(cells[1], share(), least));
+    // The packing that carries the bed's weight depends on its height, which differs from the case's.
+    if (part.tfm.max_packing == core::MaxPacking(core::PackingRule::automatic))
+      part.tfm.max_packing = part.bed.solids_fraction + 0.05;
+  }
+  return part;
+}
+
+std::string shape_text(const core::Column& column) {
+  const std::string shape = column.shape == core::ColumnShape::box ? "" : round_text(column);
+  if (column.layers.empty()) return shape;
+  return shape + (shape.empty() ? "" : "; ") + layers_text(column);
 }
 
 Requirements requirements_of(const core::Scene& scene, core::Timers& timers, std::unique_ptr<tfm::Model>& model) {

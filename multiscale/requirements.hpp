@@ -53,7 +53,7 @@ struct Requirements {
 /// with the bed. Cell size, velocities and composition, which determine the steps, stay.
 [[nodiscard]] core::Scene narrow_part(const core::Scene& scene, std::size_t most_cells);
 
-/// Position of a round column on its grid, in words; empty for a box.
+/// Position of a round column on its grid, and its graded layers, in words; else empty.
 [[nodiscard]] std::string shape_text(const core::Column& column);
 
 /// Builds and steps a narrow part of the case for at most about a second.

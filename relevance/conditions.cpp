@@ -108,7 +108,7 @@ EffectRow clusters(const core::Scene& scene, const Survey& survey) {
   row.threshold = 0.5;
   double cell = 0;
   for (int axis = 0; axis < scene.column.dimensions; ++axis)
-    cell = std::max(cell, scene.column.size[std::size_t(axis)] / scene.column.cells[std::size_t(axis)]);
+    cell = std::max(cell, scene.column.cell(std::size_t(axis)));
   double value = 0;
   for (const core::Species& s : scene.species) {
     const double terminal =

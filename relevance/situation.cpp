@@ -56,7 +56,7 @@ void measure_bed(const core::Scene& scene, Survey& s) {
 void find_scales_of_run(const core::Scene& scene, double fluid_density, Survey& s) {
   for (std::size_t a = 0; a < std::size_t(scene.column.dimensions); ++a) {
     if (scene.column.cells[a] <= 1) continue;
-    const double spacing = scene.column.size[a] / double(scene.column.cells[a]);
+    const double spacing = scene.column.cell(a);
     s.cell = s.cell > 0 ? std::min(s.cell, spacing) : spacing;
   }
   const double packed = std::max(s.solids_fraction, scene.bed.solids_fraction);

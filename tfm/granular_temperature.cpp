@@ -47,8 +47,8 @@ void conduct(const Metric& metric, const Constants& constants, const fluid::Boun
     std::fill(heat.begin(), heat.end(), 0.0);
     core::for_each_row(grid, core::interior_faces(grid, axis), [&](Index begin, Index end) {
       for (Index c = begin; c < end; ++c)
-        heat[std::size_t(c)] = metric.open(std::size_t(axis), c) * half_per_length *
-                               (std::max(phi[c - s], 0.0) * k[c - s] + std::max(phi[c], 0.0) * k[c]) *
+        heat[std::size_t(c)] = metric.open(std::size_t(axis), c) * metric.per_distance(std::size_t(axis), c) *
+                               half_per_length * (std::max(phi[c - s], 0.0) * k[c - s] + std::max(phi[c], 0.0) * k[c]) *
                                (theta[c] - theta[c - s]);
     });
     boundaries.join(heat, axis);

@@ -21,7 +21,7 @@ namespace {
 
 /// \param top  of the bed at the start, m
 void require_room(double top, const core::Grid& grid) {
-  const double height = grid.spacing[1] * grid.column_cells(1);
+  const double height = grid.column_height();
   if (top > height * (1 + 1e-12))
     throw core::StartError(
         fmt::format("the bed at its start is {:.4g} m high, the column {:.4g} m: enlarge column.size", top, height));
@@ -57,12 +57,16 @@ double settled_fraction(const StressEffect& stress, double above, double weight_
 }
 
 /// Equilibrium of `cells` cells under a topmost one of fraction `top`, face by face, from the bottom up.
-std::vector<double> equilibrium_below(const StressEffect& stress, double top, int cells, double weight) {
+/// \param weight  of solids on an area, Pa/m
+std::vector<double> equilibrium_below(const StressEffect& stress, double top, int cells, double weight,
+                                      const core::Grid& grid) {
+  const auto below = [&](int y) { return weight * (0.5 * (grid.height(y - 1) + grid.height(y))); };
   std::vector<double> column{top};
-  double pressure = stress.pressure_on_top(top, 0.5 * top * weight);
+  double pressure = stress.pressure_on_top(top, 0.5 * top * below(cells + 1));
   for (int k = 0; k < cells; ++k) {
-    const double phi = settled_fraction(stress, column.back(), weight, pressure);
-    pressure += 0.5 * (phi + column.back()) * weight;
+    const double between = below(cells - k);
+    const double phi = settled_fraction(stress, column.back(), between, pressure);
+    pressure += 0.5 * (phi + column.back()) * between;
     column.push_back(phi);
   }
   std::reverse(column.begin(), column.end());
@@ -78,13 +82,14 @@ std::vector<double> settled_column(double solids, const StressEffect& stress, do
                               0.0);
   };
   int cells = 0;
-  while (cells < grid.column_cells(1) && amount(equilibrium_below(stress, 0.0, cells + 1, weight)) <= solids) ++cells;
+  while (cells < grid.column_cells(1) && amount(equilibrium_below(stress, 0.0, cells + 1, weight, grid)) <= solids)
+    ++cells;
   double low = 0, high = stress.max_packing();
   for (int n = 0; n < 200; ++n) {
     const double top = 0.5 * (low + high);
-    (amount(equilibrium_below(stress, top, cells, weight)) < solids ? low : high) = top;
+    (amount(equilibrium_below(stress, top, cells, weight, grid)) < solids ? low : high) = top;
   }
-  std::vector<double> column = equilibrium_below(stress, 0.5 * (low + high), cells, weight);
+  std::vector<double> column = equilibrium_below(stress, 0.5 * (low + high), cells, weight, grid);
   if (column.size() < std::size_t(grid.column_cells(1))) column.resize(std::size_t(grid.column_cells(1)), 0.0);
   return column;
 }
@@ -127,8 +132,13 @@ std::vector<double> shares_between(const core::Grid& grid, std::size_t axis, dou
 /// Share of each of the block's layers, by volume, between two heights.
 std::vector<double> shares_of_layers(const core::Grid& grid, const core::Column& column, const core::Extent& extent) {
   const double h = grid.spacing[1];
-  if (!column.is_tapered()) return shares_between(grid, 1, extent.low / h, extent.high / h);
   std::vector<double> share;
+  for (int y = grid.before[1]; grid.layers && y < grid.before[1] + grid.cells[1]; ++y) {
+    const auto below = [&](double height) { return std::clamp(height, grid.low(1, y), grid.low(1, y + 1)); };
+    share.push_back((below(extent.high) - below(extent.low)) / grid.height(y));
+  }
+  if (grid.layers) return share;
+  if (!column.is_tapered()) return shares_between(grid, 1, extent.low / h, extent.high / h);
   for (int y = grid.before[1]; y < grid.before[1] + grid.cells[1]; ++y) {
     const auto below = [&](double height) { return column.even_height(std::clamp(height, y * h, (y + 1) * h)); };
     share.push_back((below(extent.high) - below(extent.low)) / (below((y + 1) * h) - below(y * h)));
@@ -187,7 +197,7 @@ void fill_whole_cells(const core::Scene& scene, const Constants& constants, cons
     for (std::size_t j = 0; j < constants.species(); ++j)
       excess += bed.volume_share[j] * (constants.density[j] - constants.fluid.density);
     if (excess <= 0) throw core::StartError("bed.start = \"settled\" needs solids heavier than the fluid");
-    column = settled_column(total, *stress, excess * constants.gravity * grid.spacing[1], grid);
+    column = settled_column(total, *stress, excess * constants.gravity, grid);
   } else {
     column = even_column(total, bed.start_solids_fraction, layers_of(grid));
   }

@@ -22,7 +22,7 @@ constexpr std::size_t last_steps_kept = 10;  // reported by a failed run
 
 std::vector<double> slab_centres(const core::Grid& grid) {
   std::vector<double> y;
-  for (int k = 0; k < grid.column_cells(1); ++k) y.push_back((k + 0.5) * grid.spacing[1]);
+  for (std::size_t k = 0; k < measures::slabs_of(grid); ++k) y.push_back((double(k) + 0.5) * grid.spacing[1]);
   return y;
 }
 
@@ -108,7 +108,7 @@ measures::Profile part_of_profile(const Model& model) {
   profile.areas = areas_of_layers(grid);
   for (const core::Field& phi : model.fields().solids.fraction)
     profile.fraction.push_back(measures::part_of_lateral_mean(grid, phi));
-  profile.pressure = measures::part_of_lateral_mean(grid, model.fields().fluid.pressure);
+  profile.pressure = measures::part_of_lateral_mean(grid, model.fields().fluid.pressure, measures::Within::linear);
   return profile;
 }
 
@@ -236,12 +236,12 @@ void Observers::write_fields(double time) {
   const Fields& fields = model_.fields();
   std::vector<std::vector<double>> rows;
   core::Reduction all;
-  const auto add_mean = [&](const core::Field& field) {
-    rows.push_back(measures::part_of_lateral_mean(grid, field));
+  const auto add_mean = [&](const core::Field& field, measures::Within layers = measures::Within::even) {
+    rows.push_back(measures::part_of_lateral_mean(grid, field, layers));
     all.sum(rows.back());  // its numbers keep their addresses when others are added
   };
   add_mean(fields.fluid.voidage);
-  add_mean(fields.fluid.pressure);
+  add_mean(fields.fluid.pressure, measures::Within::linear);
   if (const std::vector<double> areas = areas_of_layers(grid); !areas.empty()) rows.push_back(areas);
   std::vector<core::FaceField> velocities{core::cell_means(grid, fields.fluid.velocity)};
   for (const core::FaceField& u : fields.solids.velocity) velocities.push_back(core::cell_means(grid, u));

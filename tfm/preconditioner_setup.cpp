@@ -91,8 +91,13 @@ double Preconditioner::viscous_diagonal(int axis, Index face) const {
     for (int d = 0; d < grid.dimensions; ++d) {
       const auto b = std::size_t(d);
       const Index t = grid.stride(d);
-      const double open =
-          metric.open(b, face - s) + metric.open(b, face) + metric.open(b, face + t - s) + metric.open(b, face + t);
+      const auto through = [&](Index f, Index edge) { return metric.open(b, f) * metric.per_distance(b, edge); };
+      const auto within = [&](Index c) {
+        return 2 * metric.volume(c) * metric.per_length(b, c) * metric.per_length(b, c);
+      };
+      const double open = d == axis && grid.layers ? within(face - s) + within(face)
+                                                   : through(face - s, face) + through(face, face) +
+                                                         through(face + t - s, face + t) + through(face + t, face + t);
       sum += (d == axis ? 8.0 / 3 : 2.0) * 0.25 * open * metric.per_volume_on(std::size_t(axis), face) /
              (grid.spacing[b] * grid.spacing[b]);
     }

@@ -73,7 +73,8 @@ void subtract_stress_loops(const Constants& constants, const fluid::Boundaries& 
   for_each_solids_row(constants, boundaries, [&](std::size_t j, int axis, Index begin, Index end) {
     const Index s = constants.grid.stride(axis);
     double* a = fields.solids.acceleration[j][std::size_t(axis)].data();
-    const double scale = 1 / (constants.grid.spacing[std::size_t(axis)] * constants.density[j]);
+    double scale = 1 / (constants.grid.spacing[std::size_t(axis)] * constants.density[j]);
+    if (axis == 1 && constants.grid.layers) scale *= constants.grid.metric->per_distance[std::size_t(begin)];
 #pragma GCC ivdep
     for (Index c = begin; c < end; ++c)
       a[c] -= scale * (p[c] - p[c - s]) / std::max(face_mean(phi, c, s), stress_fraction_floor);

@@ -29,7 +29,7 @@ class Strain {
   [[nodiscard]] double squared(Index c) const {
     double squares = 0, divergence = 0, shear = 0;
     core::for_each_axis<dimensions>([&](auto a) {
-      const double along = (u_[a][c + stride_[a]] - u_[a][c]) * per_length_[a];
+      const double along = (u_[a][c + stride_[a]] - u_[a][c]) * (per_length_[a] * metric_.per_length(a, c));
       squares += along * along;
       divergence += along;
       core::for_each_axis<dimensions>([&](auto b) {
@@ -49,8 +49,8 @@ class Strain {
  private:
   /// (du_a/dx_b + du_b/dx_a)^2 on the edge below the faces c of both axes, times the share of shear that it transmits.
   [[nodiscard]] double edge(Index c, std::size_t a, std::size_t b) const {
-    const double rate =
-        (u_[a][c] - u_[a][c - stride_[b]]) * per_length_[b] + (u_[b][c] - u_[b][c - stride_[a]]) * per_length_[a];
+    const double rate = (u_[a][c] - u_[a][c - stride_[b]]) * (per_length_[b] * metric_.per_distance(b, c)) +
+                        (u_[b][c] - u_[b][c - stride_[a]]) * (per_length_[a] * metric_.per_distance(a, c));
     return share_(c, stride_[a], stride_[b]) * rate * rate;
   }
 

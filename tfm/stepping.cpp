@@ -150,8 +150,7 @@ class ImplicitSteps : public Stepping {
     const std::vector<double>& density = equations_.constants().density;
     const double heaviest =
         std::max(equations_.constants().fluid.density, *std::max_element(density.begin(), density.end()));
-    const double height = grid.column_cells(1) * grid.spacing[1];
-    const double round_off = std::numeric_limits<double>::epsilon() * heaviest * height * of_flux / rtol_;
+    const double round_off = std::numeric_limits<double>::epsilon() * heaviest * grid.column_height() * of_flux / rtol_;
     const double least = margin * round_off / of_pressure;
     return own < least ? least : 0;
   }

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <numbers>
 
+#include "core/case/grading.hpp"
 #include "core/case/layers.hpp"
 #include "core/numerics/schedule.hpp"
 
@@ -34,6 +35,12 @@ void fill_size(Scene& scene) {
 void fill_cells(Column& column) {
   const auto cells = [&](std::size_t k) { return int(column.given_cells[k]); };
   column.cells = column.dimensions == 3 ? std::array{cells(0), cells(2), cells(1)} : std::array{cells(0), cells(1), 1};
+}
+
+void fill_graded_layers(Column& column) {
+  if (!column.grading || !column.graded_above || !(*column.graded_above < column.size[1])) return;
+  column.layers = graded_layers(column.size[1], column.cells[1], *column.graded_above, *column.grading);
+  column.cells[1] = int(column.layers.size());
 }
 
 void fill_gravity(Column& column) {
@@ -127,6 +134,7 @@ void resolve(Scene& scene, const std::string& case_name, WrongKeys& wrong) {
   if (wrong.sound("column.size")) {
     fill_size(scene);
     if (wrong.sound("column.cells")) fill_cells(scene.column);
+    if (wrong.sound({"column.cells", "column.grading", "column.graded_above"})) fill_graded_layers(scene.column);
     if (wrong.sound("column.gravity_direction")) fill_gravity(scene.column);
     if (wrong.sound({"inlet.flow_rate", "column.depth"})) fill_inlet(scene);
   }

@@ -81,6 +81,32 @@ std::vector<Rule> axis_rules() {
        no_room}};
 }
 
+Broken nothing_above(const Scene& scene) {
+  const Column& column = scene.column;
+  if (!column.grading || !column.graded_above || *column.graded_above < column.size[1] - column.cell(1)) return {};
+  return Broken({fmt::format("{:.4g}", *column.graded_above), fmt::format("{:.4g}", column.size[1])});
+}
+
+std::vector<Rule> grading_rules() {
+  return {{{"column.grading", "column.graded_above"},
+           "column.grading = {} needs column.graded_above, the height above which layers of cells grow: above the bed "
+           "when it is expanded",
+           [](const Scene& scene) {
+             const Column& column = scene.column;
+             return column.grading && !column.graded_above ? Broken({fmt::format("{:g}", *column.grading)}) : Broken();
+           }},
+          {{"column.graded_above", "column.grading"},
+           "column.graded_above cannot act without column.grading, the ratio of the heights of layers, for example 1.1",
+           [](const Scene& scene) { return broken_if(scene.column.graded_above && !scene.column.grading); }},
+          {{"column.graded_above", "column.grading", "column.size", "column.cells"},
+           "column.graded_above = {} m leaves no layers to grade in a column of {} m: lower it, or leave out "
+           "column.grading",
+           nothing_above},
+          {{"column.grading", "column.profile", "column.shape"},
+           "column.grading and column.profile cannot be combined yet: leave out one of them",
+           [](const Scene& scene) { return broken_if(scene.column.grading && scene.column.is_tapered()); }}};
+}
+
 std::vector<Rule> gravity_rules() {
   return {
       {{"column.gravity_direction", "column.size", "fluid.name", "fluid.equation_of_state"},
@@ -108,18 +134,20 @@ Rule joined_ends_exclude(const std::string& key, const std::string& what, bool (
 }
 
 std::vector<Rule> end_rules() {
-  return {joined_ends_exclude("column.closed", "column.closed = true", [](const Scene& s) { return s.column.closed; }),
-          joined_ends_exclude("column.outlet", "column.outlet = \"open\"",
-                              [](const Scene& s) { return s.column.outlet == Outlet::open; }),
-          joined_ends_exclude("feed.species", "[[feed]]", [](const Scene& s) { return !s.feeds.empty(); }),
-          joined_ends_exclude("discharge.at", "[[discharge]]", [](const Scene& s) { return !s.discharges.empty(); }),
-          {{"column.ends", "fluid.name", "dem.shear_rate"},
-           "column.ends = \"periodic\" is for particles without a fluid, or for a sheared box whose fluid moves with "
-           "its flow: set fluid.name = \"none\", or dem.shear_rate",
-           [](const Scene& scene) {
-             const Column& column = scene.column;
-             return broken_if(column.ends == Boundary::periodic && scene.fluid.present() && column.shear_rate == 0);
-           }}};
+  return {
+      joined_ends_exclude("column.closed", "column.closed = true", [](const Scene& s) { return s.column.closed; }),
+      joined_ends_exclude("column.outlet", "column.outlet = \"open\"",
+                          [](const Scene& s) { return s.column.outlet == Outlet::open; }),
+      joined_ends_exclude("column.grading", "column.grading", [](const Scene& s) { return bool(s.column.grading); }),
+      joined_ends_exclude("feed.species", "[[feed]]", [](const Scene& s) { return !s.feeds.empty(); }),
+      joined_ends_exclude("discharge.at", "[[discharge]]", [](const Scene& s) { return !s.discharges.empty(); }),
+      {{"column.ends", "fluid.name", "dem.shear_rate"},
+       "column.ends = \"periodic\" is for particles without a fluid, or for a sheared box whose fluid moves with "
+       "its flow: set fluid.name = \"none\", or dem.shear_rate",
+       [](const Scene& scene) {
+         const Column& column = scene.column;
+         return broken_if(column.ends == Boundary::periodic && scene.fluid.present() && column.shear_rate == 0);
+       }}};
 }
 
 Rule shear_needs(const std::string& key, const std::string& what, bool (*met)(const Column&)) {
@@ -166,7 +194,7 @@ std::vector<Rule> time_rules() {
 
 std::vector<Rule> column_rules() {
   std::vector<Rule> rules;
-  for (const auto& part : {axis_rules(), gravity_rules(), end_rules(), shear_rules(), time_rules()})
+  for (const auto& part : {axis_rules(), grading_rules(), gravity_rules(), end_rules(), shear_rules(), time_rules()})
     rules.insert(rules.end(), part.begin(), part.end());
   return rules;
 }

@@ -43,6 +43,7 @@ std::vector<Rule> without_a_fluid() {
       {{"inlet.superficial_velocity", "inlet.superficial_velocity", has_inlet},
        {"jet.superficial_velocity", "[[jet]]", has_jets},
        {"inlet.at", "inlet.at = \"top\"", is_given_at_the_top},
+       {"column.grading", "column.grading", [](const Scene& s) { return bool(s.column.grading); }},
        {"species.sphericity", "species.sphericity", [](const Scene& s) { return !all_spheres(s); }},
        {"fluid.temperature", "fluid.temperature", [](const Scene& s) { return bool(s.fluid.temperature); }},
        {"fluid.density", "fluid.density", [](const Scene& s) { return bool(s.fluid.density); }},

@@ -21,10 +21,12 @@ struct Column {
   std::vector<std::int64_t> given_cells;  ///< likewise
   /// Height and diameter of a round column, m, upward, linear between. Two at one height are a step. Empty: uniform.
   std::vector<std::pair<double, double>> profile;
-  std::optional<double> depth;        ///< of a 2-D column, m; else twice the largest diameter and skin
-  int dimensions = 2;                 ///< derived, like the next two
-  std::array<double, 3> size{};       ///< width, height, depth, m (axes x, y, z; 2-D: depth is `depth`)
-  std::array<int, 3> cells{1, 1, 1};  ///< along x, y, z; 1 along z in 2-D
+  std::optional<double> grading, graded_above;  ///< ratio of the heights of layers above a height, m
+  std::optional<double> depth;                  ///< of a 2-D column, m; else twice the largest diameter and skin
+  int dimensions = 2;                           ///< derived, like the next two
+  std::array<double, 3> size{};                 ///< width, height, depth, m (axes x, y, z; 2-D: depth is `depth`)
+  std::array<int, 3> cells{1, 1, 1};            ///< along x, y, z; 1 along z in 2-D
+  std::vector<double> layers;                   ///< derived: heights of graded layers of cells, m; empty: all alike
   Boundary sides = Boundary::wall;
   Boundary ends = Boundary::wall;         ///< bottom and top; periodic for the DEM only
   double gravity = 9.81;                  ///< m/s2, along `down`
@@ -37,6 +39,10 @@ struct Column {
   [[nodiscard]] bool is_round() const { return shape == ColumnShape::cylinder; }
   [[nodiscard]] bool around_axis() const { return shape == ColumnShape::axisymmetric; }
   [[nodiscard]] bool is_tapered() const { return !profile.empty(); }
+  /// Side of a cell along an axis, m; in a graded column of those at the bottom, the smallest.
+  [[nodiscard]] double cell(std::size_t axis) const {
+    return axis == 1 && !layers.empty() ? layers.front() : size[axis] / cells[axis];
+  }
   /// Area of its cross-section at an end, m2.
   [[nodiscard]] double cross_section(ColumnFace end = ColumnFace::bottom) const;
   /// Volume below a height over cross_section(), m: the equivalent height in a uniform column. A tapered column

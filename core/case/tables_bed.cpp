@@ -31,6 +31,11 @@ Table column_table() {
           key(&Column::profile, "profile", dimension::length, above(0, 1e3), Mark::by_height,
               help("diameter of a round column in pairs [height, diameter] from 0 to its height, linear between; two "
                    "pairs at one height are a step; size has the largest diameter, or half of it")),
+          key(&Column::grading, "grading", above(1, 1.2),
+              help("height of a layer of cells over that of the one below it, above graded_above, at most: fewer and "
+                   "larger cells in the freeboard; cells is then the number without grading")),
+          key(&Column::graded_above, "graded_above", dimension::length, above(0, 1e3),
+              help("height above which layers grow; the bed should stay below it")),
           key(&Column::depth, "depth", dimension::length, above(0, 1e3),
               help("of a 2-D column; default: twice the largest diameter and twice dem.skin")),
           key(&Column::sides, "sides", help("walls (fluid: no slip; solids: tfm.solids_wall), or joined")),

@@ -27,6 +27,18 @@ double surface(const Grid& column, const std::array<int, 3>& blocks) {
 /// First cell of block n when cells are distributed evenly; the first blocks get one more if there is a remainder.
 int first_cell(int cells, int blocks, int n) { return n * (cells / blocks) + std::min(n, cells % blocks); }
 
+std::shared_ptr<const Layers> layers_of(const Column& column) {
+  if (column.layers.empty()) return nullptr;
+  Layers layers{column.layers, {0}};
+  for (const double height : layers.height) {
+    const auto n = double(layers.low.size());
+    const bool even = height == layers.height.front();  // the low faces are then exactly those of even cells
+    layers.low.push_back(even ? n * height : layers.low.back() + height);
+  }
+  layers.low.back() = column.size[1];
+  return std::make_shared<const Layers>(std::move(layers));
+}
+
 }  // namespace
 
 std::array<int, 3> choose_blocks(const Grid& column, int count) {
@@ -76,7 +88,8 @@ Grid grid_of(const Column& column, const std::shared_ptr<const Ranks>& ranks) {
   Grid grid;
   grid.dimensions = column.dimensions;
   grid.cells = column.cells;
-  for (std::size_t d = 0; d < 3; ++d) grid.spacing[d] = column.size[d] / column.cells[d];
+  for (std::size_t d = 0; d < 3; ++d) grid.spacing[d] = column.cell(d);
+  grid.layers = layers_of(column);
   grid.periodic[0] = column.sides == core::Boundary::periodic;
   grid.periodic[2] = column.sides == core::Boundary::periodic && column.dimensions == 3;
   Grid block = block_of(grid, ranks);
@@ -88,11 +101,10 @@ Grid whole_column(const Grid& block) {
   Grid column;
   column.dimensions = block.dimensions;
   column.spacing = block.spacing;
+  column.layers = block.layers;
   column.periodic = block.periodic;
   for (int axis = 0; axis < 3; ++axis) column.cells[std::size_t(axis)] = block.column_cells(axis);
-  if (block.metric)
-    column.metric = metric_of(column, block.metric->around_axis ? ColumnShape::axisymmetric : ColumnShape::cylinder,
-                              block.metric->taper);
+  if (block.metric) column.metric = metric_of(column, block.metric->shape, block.metric->taper);
   return column;
 }
 

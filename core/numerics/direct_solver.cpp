@@ -94,7 +94,7 @@ namespace {
 /// The place in this block; nothing if another block contains it.
 std::optional<std::array<int, 3>> place_of_pin(const Grid& grid) {
   std::array<int, 3> place{};
-  if (grid.metric && !grid.metric->around_axis)
+  if (grid.metric && grid.metric->shape == ColumnShape::cylinder)
     for (const int axis : {0, 2}) place[std::size_t(axis)] = grid.column_cells(axis) / 2;
   for (std::size_t a = 0; a < 3; ++a) {
     place[a] -= grid.before[a];

@@ -1,5 +1,5 @@
 // The staggered grid of a column or of this rank's block, and the memory layout of its fields. Its cells are alike; its
-// metric contains the open shares of cells in a round column.
+// metric contains the open shares of cells in a round column, and the relative heights of graded layers.
 //
 // Axes: 0 = x (width), 1 = y (height, upward), 2 = z (depth; one cell thick in 2-D). Every field, on cells or
 // on faces of one axis, is one array over the same padded box, so that a cell and its low faces share an
@@ -11,6 +11,7 @@
 #include <array>
 #include <cstddef>
 #include <memory>
+#include <vector>
 
 namespace polybed::core {
 
@@ -19,12 +20,19 @@ struct Metric;
 
 using Index = std::ptrdiff_t;
 
+/// Layers of cells of different heights, in the whole column.
+struct Layers {
+  std::vector<double> height;  ///< m, from the bottom up
+  std::vector<double> low;     ///< of their low faces, and the top of the column, m
+};
+
 struct Grid {
   static constexpr int halo = 2;  ///< layers of ghost cells on every side of an active axis
 
   int dimensions = 2;                                 ///< 2 or 3: the number of active axes
   std::array<int, 3> cells{1, 1, 1};                  ///< owned cells along each axis
-  std::array<double, 3> spacing{1, 1, 1};             ///< cell size, m (2-D: spacing[2] is the depth)
+  std::array<double, 3> spacing{1, 1, 1};             ///< cell size, m (2-D: spacing[2] is the depth); the lowest
+                                                      ///< layer's where layers are graded, the smallest
   std::array<bool, 3> periodic{false, false, false};  ///< joined sides
 
   std::array<int, 3> before{0, 0, 0};    ///< cells of the column on other ranks, towards lower indices
@@ -32,7 +40,8 @@ struct Grid {
   std::array<int, 3> blocks{1, 1, 1};    ///< of the column, along each axis
   std::array<int, 3> block{0, 0, 0};     ///< index of this block
   std::shared_ptr<const Ranks> ranks;    ///< the ranks that own the blocks; null: the whole column is here
-  std::shared_ptr<const Metric> metric;  ///< for a round column; null: every cell is open
+  std::shared_ptr<const Layers> layers;  ///< where they are graded along the height; null: all alike
+  std::shared_ptr<const Metric> metric;  ///< for a round or graded column; null: every cell is open and alike
 
   /// Ghost layers along an axis: none along an inactive axis.
   [[nodiscard]] int ghosts(int axis) const { return axis < dimensions ? halo : 0; }
@@ -73,9 +82,25 @@ struct Grid {
   }
   /// Volume of a whole cell, m3.
   [[nodiscard]] double cell_volume() const { return spacing[0] * spacing[1] * spacing[2]; }
-  /// Centre of cell i of an axis, m; the column begins at 0.
+  /// Height of a layer of the column, m; beyond the ends the outermost one's.
+  [[nodiscard]] double height(int y) const {
+    return layers ? layers->height[std::size_t(std::clamp(y, 0, column_cells(1) - 1))] : spacing[1];
+  }
+  /// Low face of the column's cell n along an axis, m; the column begins at 0.
+  [[nodiscard]] double low(int axis, int n) const {
+    if (axis != 1 || !layers) return n * spacing[std::size_t(axis)];
+    const int inside = std::clamp(n, 0, column_cells(1));
+    return layers->low[std::size_t(inside)] + (n - inside) * height(n);
+  }
+  /// Side along an axis of the cells at its low (0) or high (1) end, m.
+  [[nodiscard]] double size_at_end(int axis, int side) const {
+    return axis == 1 ? height(side == 0 ? 0 : column_cells(1) - 1) : spacing[std::size_t(axis)];
+  }
+  [[nodiscard]] double column_height() const { return low(1, column_cells(1)); }
+  /// Centre of this block's cell i along an axis, m.
   [[nodiscard]] double centre(int axis, int i) const {
-    return (before[std::size_t(axis)] + i + 0.5) * spacing[std::size_t(axis)];
+    const int n = before[std::size_t(axis)] + i;
+    return axis == 1 && layers ? 0.5 * (low(1, n) + low(1, n + 1)) : (n + 0.5) * spacing[std::size_t(axis)];
   }
 };
 

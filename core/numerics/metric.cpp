@@ -1,5 +1,6 @@
 #include "core/numerics/metric.hpp"
 
+#include <algorithm>
 #include <numeric>
 
 #include "core/numerics/blocks.hpp"
@@ -29,18 +30,25 @@ class Spreading {
 
  private:
   void set_cell(Index c, int i, int j, int k) {
-    const int x = i + grid_.before[0], y = j + grid_.before[1], z = k + grid_.before[2];
+    int x = i + grid_.before[0], y = j + grid_.before[1], z = k + grid_.before[2];
     const CrossSection& section = metric_.layer(y);
+    if (metric_.shape == ColumnShape::box) {  // as open beyond its sides
+      x = std::clamp(x, 0, section.width - 1);
+      z = std::clamp(z, 0, section.depth - 1);
+    }
+    const double a = grid_.height(y) / grid_.spacing[1], below = grid_.height(y - 1) / grid_.spacing[1];
     const bool across = x >= 0 && x < section.width, along = z >= 0 && z < section.depth;
-    const double theta = across && along ? section.volume[section.at(x, z)] : 0;
+    const double theta = across && along ? a * section.volume[section.at(x, z)] : 0;
     const auto at = std::size_t(c);
     metric_.volume[at] = theta;
     metric_.per_volume[at] = theta > 0 ? 1 / theta : 0;
+    metric_.per_height[at] = 1 / a;
+    metric_.per_distance[at] = 2 / (below + a);
     metric_.open[1][at] = across && along ? metric_.level(y).open_y[section.at(x, z)] : 0;
     if (along && x >= 0 && x <= section.width)
-      metric_.open[0][at] = section.open_x[std::size_t(x + (section.width + 1) * z)];
+      metric_.open[0][at] = a * section.open_x[std::size_t(x + (section.width + 1) * z)];
     if (grid_.dimensions == 3 && across && z >= 0 && z <= section.depth)
-      metric_.open[2][at] = section.open_z[std::size_t(x + section.width * z)];
+      metric_.open[2][at] = a * section.open_z[std::size_t(x + section.width * z)];
     if (section.radius.empty() || x < 0 || x > section.width) return;
     const double h = grid_.spacing[0];
     metric_.per_radius[at] = 1 / (section.radius[std::size_t(x)] + 0.5 * h);
@@ -73,14 +81,32 @@ class Spreading {
 
 }  // namespace
 
+namespace {
+
+/// A layer of whole cells.
+CrossSection whole_section(const Grid& column) {
+  const int nx = column.cells[0], nz = column.cells[2];
+  const auto ones = [](int x, int z) { return std::vector<double>(std::size_t(x) * std::size_t(z), 1.0); };
+  CrossSection section{nx, nz, ones(nx, nz), ones(nx, nz), ones(nx + 1, nz), ones(nx, nz + 1), {}, {}};
+  section.wall.assign(section.volume.size(), 0.0);
+  return section;
+}
+
+}  // namespace
+
 std::shared_ptr<const Metric> metric_of(const Grid& grid, ColumnShape shape, const Taper& taper) {
-  if (shape == ColumnShape::box) return nullptr;
+  if (shape == ColumnShape::box && !grid.layers) return nullptr;
   auto metric = std::make_shared<Metric>();
   const Grid column = whole_column(grid);
+  metric->shape = shape;
   metric->around_axis = shape == ColumnShape::axisymmetric;
   metric->taper = taper;
-  metric->layers = cross_sections(column, metric->around_axis, taper);
-  for (Field* field : {&metric->volume, &metric->per_volume, &metric->per_radius, &metric->per_radius_on})
+  if (shape == ColumnShape::box)
+    metric->layers = {whole_section(column)};
+  else
+    metric->layers = cross_sections(column, metric->around_axis, taper);
+  for (Field* field : {&metric->volume, &metric->per_volume, &metric->per_radius, &metric->per_radius_on,
+                       &metric->per_height, &metric->per_distance})
     *field = make_field(grid);
   for (FaceField* field : {&metric->open, &metric->per_volume_on, &metric->wall}) *field = make_face_field(grid);
   Spreading(grid, *metric).fill();
@@ -90,7 +116,7 @@ std::shared_ptr<const Metric> metric_of(const Grid& grid, ColumnShape shape, con
 double open_cells_of_layer(const Grid& grid, int layer) {
   if (!grid.metric) return double(grid.column_cells(0)) * grid.column_cells(2);
   const std::vector<double>& volume = grid.metric->layer(layer).volume;
-  return std::accumulate(volume.begin(), volume.end(), 0.0);
+  return grid.height(layer) / grid.spacing[1] * std::accumulate(volume.begin(), volume.end(), 0.0);
 }
 
 double open_faces_below(const Grid& grid, int layer) {
@@ -106,6 +132,7 @@ void weigh_faces(const Grid& grid, FaceField& coefficient) {
     const Field& open = grid.metric->open[std::size_t(axis)];
     Field& field = coefficient[std::size_t(axis)];
     for (std::size_t f = 0; f < field.size(); ++f) field[f] *= open[f] > 0 ? open[f] : leak;
+    for (std::size_t f = 0; axis == 1 && grid.layers && f < field.size(); ++f) field[f] *= grid.metric->per_distance[f];
   }
 }
 

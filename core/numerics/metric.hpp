@@ -1,4 +1,5 @@
-// The open parts of a grid's equal cells: where the wall of a round column cuts them, or where they lie around an axis.
+// The open parts of a grid's equal cells: where the wall of a round column cuts them, or where they lie around an axis;
+// and the heights of layers where these are graded.
 //
 // The open volume of a cell is theta V and the open area of a face alpha A, with V and A of a whole cell and face:
 //
@@ -6,6 +7,9 @@
 //
 // A face's momentum has the mean volume of its two cells, so that its convection telescopes. Around an axis alpha and
 // theta grow with the radius; a box as wide as the radius and pi times as deep has the column's area.
+//
+// A graded layer is a times as high as the lowest: theta and the alpha of its upright faces are multiplied by a, which
+// makes every sum of fluxes exact. Differences along the height between centres are divided by the mean of both a.
 //
 // The pressure at a wall is that in its cell. It acts on the closed area of the cell's faces and leaves theta grad p:
 // an even pressure pushes nothing, and a bed rests in a cone as it does in a box.
@@ -43,6 +47,7 @@ struct CrossSection {
 
 struct Metric {
   std::vector<CrossSection> layers;  ///< from the bottom; one entry: all alike; else one more for the top
+  ColumnShape shape = ColumnShape::cylinder;
   Taper taper;
   Field volume;                              ///< theta
   Field per_volume;                          ///< 1/theta; 0 where closed
@@ -51,10 +56,14 @@ struct Metric {
   FaceField wall;                            ///< no-slip at a curved wall: damping over the kinematic viscosity, 1/m2
   Field per_radius;                          ///< 1/r of cells, 1/m; 0 in a box and a cylinder
   Field per_radius_on;                       ///< and of faces along x
+  Field per_height;                          ///< 1/a of the cell's layer; 1 unless layers are graded
+  Field per_distance;                        ///< of the centres across a face along y, in lowest cells: 2/(a + a)
   bool around_axis = false;                  ///< the low end along x is an axis, without a wall
   std::array<std::vector<Index>, 3> closed;  ///< faces of the padded box without an open part
 
   [[nodiscard]] bool tapered() const { return layers.size() > 1; }
+  /// Whether a wall cuts cells.
+  [[nodiscard]] bool cut() const { return shape == ColumnShape::cylinder || tapered(); }
   /// The cross-section of a layer of the column, and the one on whose low faces a layer of faces lies. Beyond the ends
   /// the outermost one.
   [[nodiscard]] const CrossSection& layer(int y) const { return layers[clamped(y, 2)]; }
@@ -66,7 +75,7 @@ struct Metric {
   }
 };
 
-/// Metric of a block or of the whole column, from the shape of its column; null for a box.
+/// Metric of a block or of the whole column, from the shape of its column; null for a box of even layers.
 [[nodiscard]] std::shared_ptr<const Metric> metric_of(const Grid& grid, ColumnShape shape, const Taper& taper = {});
 
 /// Equal cells: the compiler removes it from a kernel.
@@ -76,9 +85,11 @@ struct UniformMetric {
   static constexpr double per_volume(Index) { return 1; }
   static constexpr double open(std::size_t, Index) { return 1; }
   static constexpr double per_volume_on(std::size_t, Index) { return 1; }
+  static constexpr double per_length(std::size_t, Index) { return 1; }
+  static constexpr double per_distance(std::size_t, Index) { return 1; }
 };
 
-/// Metric of a round column.
+/// Metric of a round or graded column.
 class GeneralMetric {
  public:
   static constexpr bool radial = true;  ///< there can be an axis; in a cylinder its terms are 0
@@ -86,7 +97,9 @@ class GeneralMetric {
       : volume_(metric.volume.data()),
         per_volume_(metric.per_volume.data()),
         per_radius_(metric.per_radius.data()),
-        per_radius_on_(metric.per_radius_on.data()) {
+        per_radius_on_(metric.per_radius_on.data()),
+        per_height_(metric.per_height.data()),
+        per_distance_(metric.per_distance.data()) {
     for (std::size_t a = 0; a < 3; ++a) {
       open_[a] = metric.open[a].data();
       per_volume_on_[a] = metric.per_volume_on[a].data();
@@ -96,11 +109,14 @@ class GeneralMetric {
   [[nodiscard]] double per_volume(Index c) const { return per_volume_[c]; }
   [[nodiscard]] double open(std::size_t axis, Index f) const { return open_[axis][f]; }
   [[nodiscard]] double per_volume_on(std::size_t axis, Index f) const { return per_volume_on_[axis][f]; }
+  /// 1 over the length of a cell along an axis, and over the distance of the centres across a face, in grid spacings.
+  [[nodiscard]] double per_length(std::size_t axis, Index c) const { return axis == 1 ? per_height_[c] : 1.0; }
+  [[nodiscard]] double per_distance(std::size_t axis, Index f) const { return axis == 1 ? per_distance_[f] : 1.0; }
   [[nodiscard]] double per_radius(Index c) const { return per_radius_[c]; }
   [[nodiscard]] double per_radius_on(Index f) const { return per_radius_on_[f]; }
 
  private:
-  const double *volume_, *per_volume_, *per_radius_, *per_radius_on_;
+  const double *volume_, *per_volume_, *per_radius_, *per_radius_on_, *per_height_, *per_distance_;
   std::array<const double*, 3> open_{}, per_volume_on_{};
 };
 
@@ -124,12 +140,12 @@ void for_each_open_row(const Grid& grid, const Box& box, Body&& body) {
   });
 }
 
-/// Open volume of a layer of the column, in whole cells, and open area of the faces below it, in whole faces.
+/// Open volume of a layer of the column, in lowest cells, and open area of the faces below it, in whole faces.
 [[nodiscard]] double open_cells_of_layer(const Grid& grid, int layer = 0);
 [[nodiscard]] double open_faces_below(const Grid& grid, int layer);
 
-/// Multiplies face coefficients and a cell source by their open shares: the elliptic solvers assume equal cells. Closed
-/// faces between cells keep a billionth, so that no cell is isolated.
+/// Multiplies face coefficients and a cell source by their open shares, over the distances of centres: the elliptic
+/// solvers assume equal cells. Closed faces between cells keep a billionth, so that no cell is isolated.
 void weigh_faces(const Grid& grid, FaceField& coefficient);
 void weigh_cells(const Grid& grid, Field& source);
 

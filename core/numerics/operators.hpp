@@ -56,7 +56,7 @@ inline void subtract_convection(const Grid& grid, const FaceField& velocity, int
   const double* u = velocity[std::size_t(axis)].data();
   double* to = rate.data();
   const Index s = grid.stride(axis);
-  const double per_length = 1 / grid.spacing[std::size_t(axis)];
+  const double per_length = 1 / (axis == 1 ? grid.height(grid.before[1] + box.lo[1]) : grid.spacing[std::size_t(axis)]);
   for_each_row(grid, box, [&](Index begin, Index end) {
 #pragma GCC ivdep
     for (Index c = begin; c < end; ++c) to[c] -= u[c] * per_length * UpwindDifference::at(u, c, s, u[c]);

@@ -61,7 +61,7 @@ namespace {
 
 bool is_tapered(const Grid& grid) { return grid.metric && grid.metric->tapered(); }
 /// Whether a wall cuts cells, at every height alike.
-bool is_cut_alike(const Grid& grid) { return grid.metric && !grid.metric->around_axis && !is_tapered(grid); }
+bool is_cut_alike(const Grid& grid) { return grid.metric && grid.metric->cut() && !is_tapered(grid); }
 
 }  // namespace
 
@@ -85,7 +85,7 @@ RowMeanSolver::RowMeanSolver(const Grid& grid)
     x_.rate = section_->rates();
     z_.rate = {0};
   } else {
-    x_ = grid.metric && !is_tapered(grid) ? modes_of_rings(grid) : modes_of(grid, 0);
+    x_ = grid.metric && grid.metric->around_axis && !is_tapered(grid) ? modes_of_rings(grid) : modes_of(grid, 0);
     z_ = modes_of(grid, 2);
   }
   values_.resize(grid.cells[1] * Eigen::Index(z_.rate.size()), Eigen::Index(x_.rate.size()));
@@ -143,7 +143,8 @@ bool RowMeanSolver::average(const FaceSpans& coefficient, std::span<const double
     faces = 0;
     for_each_row(grid_, lo, hi, [&](Index begin, Index end) {
       for (auto c = std::size_t(begin); c < std::size_t(end); ++c) {
-        const double open = grid_.metric ? grid_.metric->open[a][c] : 1.0;
+        const double open =
+            grid_.metric ? grid_.metric->open[a][c] * (axis == 1 ? 1 : grid_.metric->per_height[c]) : 1.0;
         if (!(open > 0)) continue;
         const double b = coefficient[a][c] / open;
         sum += b;
@@ -163,6 +164,7 @@ bool RowMeanSolver::average(const FaceSpans& coefficient, std::span<const double
     if (section_)  // one mean for both directions
       across_[0][r] = 0.5 * (across_[0][r] * grid_.spacing[0] * grid_.spacing[0] +
                              across_[1][r] * grid_.spacing[2] * grid_.spacing[2]);
+    for (std::vector<double>& across : across_) across[r] *= grid_.height(row) / grid_.spacing[1];
     diagonal_[r] = 0;
     if (shift.empty()) continue;
     for_each_row(grid_, {0, row, 0}, {n[0], row + 1, n[2]}, [&](Index begin, Index end) {

@@ -59,7 +59,7 @@ double share(bool odd, int i, int cells) {
 
 bool SectionModes::serves(const Grid& column) {
   const auto [nx, ny, nz] = column.cells;
-  if (!column.metric || column.metric->around_axis || ((nx + 1) / 2) * ((nz + 1) / 2) > most_of_a_quarter) return false;
+  if (!column.metric || !column.metric->cut() || ((nx + 1) / 2) * ((nz + 1) / 2) > most_of_a_quarter) return false;
   const FaceField open = open_faces(column);
   for (std::size_t a = 0; a < 3; ++a)
     for (int k = 0; k < nz; ++k)

@@ -23,7 +23,7 @@ constexpr std::array<const char*, 3> axis_names{"x", "y", "z"};
 
 std::vector<double> face_positions(const Grid& grid, int axis) {
   std::vector<double> faces;
-  for (int i = 0; i <= grid.cells[std::size_t(axis)]; ++i) faces.push_back(i * grid.spacing[std::size_t(axis)]);
+  for (int i = 0; i <= grid.cells[std::size_t(axis)]; ++i) faces.push_back(grid.low(axis, i));
   return faces;
 }
 

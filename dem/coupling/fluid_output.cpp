@@ -86,7 +86,7 @@ FluidOutput::FluidOutput(const Coupling& coupling, std::vector<std::string> spec
               field_names(species, coupling.flow().compressible() != nullptr), resume_time) {}
 
 std::vector<std::vector<double>> FluidOutput::profiles(const Coupling::Column& column) {
-  return {measures::lateral_mean(column.grid, column.pressure),
+  return {measures::lateral_mean(column.grid, column.pressure, measures::Within::linear),
           measures::lateral_mean(column.grid, core::cell_means(column.grid, column.velocity)[1])};
 }
 

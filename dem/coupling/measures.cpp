@@ -39,7 +39,6 @@ double Coupling::most_solids() const {
 
 double Coupling::pressure_drop() const {
   const core::Grid& grid = flow_.grid();
-  const double h = grid.spacing[1];
   const Field& p = flow_.state().pressure;
   const double at_top = flow_.boundaries().has_outlet() ? 0.5 : 1;  // p = 0 half a cell above an outlet
   double sum = 0;
@@ -51,6 +50,7 @@ double Coupling::pressure_drop() const {
       });
     };
     for (const int side : {0, 1}) {
+      const double h = grid.size_at_end(1, side);
       const double whole = core::open_faces_below(grid, side * grid.column_cells(1));
       fluid::for_each_boundary_row(grid, 1, side, [&](Index begin, Index end) {
         for (Index c = begin; c < end; ++c) sum += h / whole * metric.open(1, c) * at_ends_[std::size_t(c)];

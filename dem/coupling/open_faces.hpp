@@ -21,7 +21,7 @@ namespace polybed::dem {
 class OpenFaces {
  public:
   /// \param grid  of the whole column
-  OpenFaces(const core::Grid& grid, const Box& box) : box_(box), spacing_(grid.spacing[1]) {
+  OpenFaces(const core::Grid& grid, const Box& box) : box_(box), spacing_(grid.size_at_end(1, 1)) {
     for (const Opening& opening : box.openings)
       if (std::none_of(faces_.begin(), faces_.end(), [&](const Opening& face) { return face.is_beside(opening); }))
         faces_.push_back(opening);
@@ -59,7 +59,7 @@ class OpenFaces {
 
   Box box_;
   std::vector<Opening> faces_;  ///< one opening for each face with openings
-  double spacing_;              ///< of a cell, m
+  double spacing_;              ///< height of the topmost cells, m
   Arrivals arrivals_;
 };
 

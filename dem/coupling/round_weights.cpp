@@ -45,7 +45,10 @@ double radius_of(const core::Grid& grid, double height) {
 }  // namespace
 
 EntryWeights::EntryWeights(const core::Grid& grid, int of)
-    : alike_(!grid.metric->tapered()), lift_(grid.stride(1)), radius_(0.5 * grid.cells[0] * grid.spacing[0]) {
+    : graded_(grid.layers),
+      alike_(!grid.metric->tapered()),
+      lift_(grid.stride(1)),
+      radius_(0.5 * grid.cells[0] * grid.spacing[0]) {
   for (int a = 0; a < 3; ++a) {
     count_[std::size_t(a)] = grid.cells[std::size_t(a)] + (of == a ? 1 : 0);
     per_spacing_[std::size_t(a)] = 1 / grid.spacing[std::size_t(a)];
@@ -149,7 +152,7 @@ void EntryWeights::fit(const core::Grid& grid, const std::vector<double>& volume
 }
 
 std::shared_ptr<const RoundWeights> round_weights(const core::Grid& grid) {
-  return grid.metric ? std::make_shared<RoundWeights>(grid) : nullptr;
+  return grid.metric && grid.metric->cut() ? std::make_shared<RoundWeights>(grid) : nullptr;
 }
 
 }  // namespace polybed::dem

@@ -59,7 +59,8 @@ class EntryWeights {
     std::array<std::array<std::size_t, 2>, 3> at;
     std::array<std::array<double, 2>, 3> w;
     for (std::size_t a = 0; a < 3; ++a) {
-      const double place = x[a] * per_spacing_[a] - offset_[a], below = std::floor(place);
+      const double cells = a == 1 && graded_ ? in_layers(*graded_, x[1]) : x[a] * per_spacing_[a];
+      const double place = cells - offset_[a], below = std::floor(place);
       w[a] = {1 - (place - below), place - below};
       for (int n = 0; n < 2; ++n) at[a][std::size_t(n)] = std::size_t(std::clamp(int(below) + n, 0, count_[a] - 1));
     }
@@ -88,7 +89,8 @@ class EntryWeights {
 
   std::array<int, 3> count_{};
   std::array<double, 3> per_spacing_{}, offset_{};  ///< 1/m; spacings
-  bool alike_;                                      ///< all layers are alike
+  std::shared_ptr<const core::Layers> graded_;      ///< null: all of one height
+  bool alike_;                                      ///< all layers are cut alike
   core::Index lift_;                                ///< from a layer to the next in a field
   double radius_;                                   ///< of the column where it is widest, m
   std::vector<Entry> entries_;

@@ -1,5 +1,5 @@
 // The shares of a particle in the surrounding cells and faces, T(2.9): linear in the distance along each direction of
-// the grid. Both directions of the coupling have the same weights.
+// the grid, counted in cells. Both directions of the coupling have the same weights.
 #pragma once
 
 #include <algorithm>
@@ -22,6 +22,13 @@ struct Lines {
   std::array<Line, 3> cell, face;
 };
 
+/// Height in layers from the bottom; the outermost ones continue beyond the ends.
+[[nodiscard]] inline double in_layers(const core::Layers& layers, double height) {
+  const std::vector<double>& low = layers.low;
+  const auto n = std::upper_bound(low.begin() + 1, low.end() - 1, height) - low.begin() - 1;
+  return double(n) + (height - low[std::size_t(n)]) / layers.height[std::size_t(n)];
+}
+
 class Weights {
  public:
   /// \param grid  of the whole column
@@ -40,7 +47,7 @@ class Weights {
     for (std::size_t a = 0; a < std::size_t(grid_.dimensions); ++a) {
       const int n = grid_.cells[a];
       const bool periodic = grid_.periodic[a];
-      const double place = x[a] * per_spacing_[a];
+      const double place = a == 1 && grid_.layers ? in_layers(*grid_.layers, x[1]) : x[a] * per_spacing_[a];
       lines.cell[a] = line(place - 0.5, a, periodic ? n : 0, 0, n - 1);
       lines.face[a] = line(place, a, periodic ? n : 0, 0, n);
     }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "dem/coupling/weights.hpp"
+
 namespace polybed::dem {
 
 GridExchange::GridExchange(core::Grid column, core::Grid block, std::shared_ptr<const core::Ranks> ranks)
@@ -56,8 +58,11 @@ void GridExchange::choose(const Particles& particles) {
       most = std::max(most, particles.place[i].x[a]);
     }
     const double per_spacing = 1 / column_.spacing[a];
-    const int low = int(std::floor(least * per_spacing - 0.5)) - margin;
-    const int high = int(std::floor(most * per_spacing)) + 2 + margin;
+    const auto in_cells = [&](double x) {
+      return a == 1 && column_.layers ? in_layers(*column_.layers, x) : x * per_spacing;
+    };
+    const int low = int(std::floor(in_cells(least) - 0.5)) - margin;
+    const int high = int(std::floor(in_cells(most))) + 2 + margin;
     const bool around = column_.periodic[a] && (low < 0 || high > column_.cells[a]);
     own.low[a] = around || !active ? 0 : std::clamp(low, 0, end - 1);
     own.high[a] = around || !active ? end : std::clamp(high, 1, end);

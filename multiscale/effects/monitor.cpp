@@ -28,6 +28,7 @@ std::size_t cell_at(const core::Grid& column, const std::array<double, 3>& place
   std::array<int, 3> cell{0, 0, 0};
   for (std::size_t a = 0; a < std::size_t(column.dimensions); ++a)
     cell[a] = std::clamp(int(std::floor(place[a] / column.spacing[a])), 0, column.cells[a] - 1);
+  while (column.layers && cell[1] > 0 && column.low(1, cell[1]) > place[1]) --cell[1];
   return std::size_t(column.index(cell[0], cell[1], cell[2]));
 }
 

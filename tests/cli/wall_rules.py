@@ -1,4 +1,4 @@
-"""For each rule of a round column and of walls inside what breaks it, in words of --set as in case_rules_test.py."""
+"""For each rule of a round or graded column and of walls inside what breaks it, in words of --set as in case_rules_test.py."""
 from feed_rules import feeds
 from layer_rules import COUNTED, FINE, layers
 
@@ -12,6 +12,7 @@ def tapered(*rows):
 
 
 TAPERED = tapered((0, 0.06), (0.1, 0.12), (0.2, 0.12))
+GRADED = "column.grading=1.1"
 
 
 def wall(start, end, shape="flat"):
@@ -19,6 +20,11 @@ def wall(start, end, shape="flat"):
 
 
 WALLS = {
+    "column.grading = {} needs column.graded_above, the height above which layers of cells grow: above the bed when it is expanded": [GRADED],
+    "column.graded_above cannot act without column.grading, the ratio of the heights of layers, for example 1.1": ["column.graded_above=0.1"],
+    "column.graded_above = {} m leaves no layers to grade in a column of {} m: lower it, or leave out column.grading": [
+        GRADED, "column.graded_above=0.195"],
+    "column.grading and column.profile cannot be combined yet: leave out one of them": [GRADED, "column.graded_above=0.1", *TAPERED],
     'column.shape = "cylinder" takes column.size = [diameter, diameter, height]': ["column.shape=cylinder"],
     "species.diameter: {} m is more than half the diameter of the round column, {} m": [
         "column.shape=cylinder", "column.size=[0.0015,0.0015,0.2]", "column.cells=[1,1,20]"],
@@ -62,6 +68,8 @@ ROUND_OF_MODELS = {
         AROUND, "tfm.solids_wall=johnson_jackson"],
     'column.shape = "cylinder" and dem.own_share = "removed" cannot be combined yet; use dem.own_share = "kept"': [
         *ROUND, "dem.own_share=removed"],
+    'column.grading and dem.own_share = "removed" cannot be combined yet; use dem.own_share = "kept"': [
+        GRADED, "column.graded_above=0.1", "dem.own_share=removed"],
 }
 ROUND_FOR_ONE_MODEL = {
     'column.shape = "axisymmetric": polybed tfm can run it, polybed dem cannot: particles go around the axis; use "cylinder"': [AROUND],

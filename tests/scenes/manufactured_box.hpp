@@ -106,7 +106,7 @@ class Driven : public BoxEquations {
       for (int j = 0; j < grid.cells[1]; ++j)
         for (int i = 0; i < grid.cells[0]; ++i) {
           std::array<double, 3> x{grid.centre(0, i), grid.centre(1, j), grid.centre(2, k)};
-          if (axis >= 0) x[std::size_t(axis)] -= 0.5 * grid.spacing[std::size_t(axis)];
+          if (axis >= 0) x[std::size_t(axis)] = grid.low(axis, std::array{i, j, k}[std::size_t(axis)]);
           body(std::size_t(grid.index(i, j, k)), exact(x, grid.dimensions, grid.cells[0] * grid.spacing[0]));
         }
   }

@@ -1,4 +1,5 @@
 // Particles and fluid at rest, and how a sphere begins to move: weight, buoyancy and added mass.
+#include "core/case/grading.hpp"
 #include "core/numerics/random.hpp"
 #include "scenes/dem_scenes.hpp"
 #include "scenes/wet_beads.hpp"
@@ -26,10 +27,18 @@ core::Scene suspension(double density, const dem::Vector& size) {
   return scene;
 }
 
-// Unevenly strewn, of the fluid's density: nothing moves, whatever the voidage is where.
-TEST(DemRest, ANeutrallyBuoyantSuspensionStays) {
+// Unevenly strewn, of the fluid's density: nothing moves, whatever the voidage is where, and in graded layers.
+class RestingSuspension : public testing::TestWithParam<bool> {};
+INSTANTIATE_TEST_SUITE_P(EvenAndGraded, RestingSuspension, testing::Bool());
+
+TEST_P(RestingSuspension, StaysIfNeutrallyBuoyant) {
   const dem::Vector size{10e-3, 15e-3, 10e-3};
-  Beads beads(suspension(water.density, size), strewn(size, 1.25e-3));
+  core::Scene scene = suspension(water.density, size);
+  if (GetParam()) {
+    scene.column.layers = core::graded_layers(size[1], 6, 5e-3, 1.2);
+    scene.column.cells[1] = int(scene.column.layers.size());
+  }
+  Beads beads(scene, strewn(size, 1.25e-3));
   beads.steps(200);
   double most = 0;
   for (std::size_t i = 0; i < beads.model.particles().owned; ++i)

@@ -33,11 +33,17 @@ struct SlipAcross {
 };
 
 /// A component of curl U_f on the edges along its axis, 1/s: index c is the low edge of cell c.
+template <class Metric>
 struct EdgeVorticity {
+  Metric metric;
+  std::size_t axis_p, axis_q;  ///< the two other axes, in cyclic order
   const double *u_p, *u_q;
-  Index p, q;  ///< strides of the two other axes, in cyclic order
+  Index p, q;  ///< their strides
   double per_p, per_q;
-  [[nodiscard]] double at(Index c) const { return per_p * (u_q[c] - u_q[c - p]) - per_q * (u_p[c] - u_p[c - q]); }
+  [[nodiscard]] double at(Index c) const {
+    return per_p * metric.per_distance(axis_p, c) * (u_q[c] - u_q[c - p]) -
+           per_q * metric.per_distance(axis_q, c) * (u_p[c] - u_p[c - q]);
+  }
   [[nodiscard]] double mean(Index c, Index s) const { return 0.5 * (at(c) + at(c + s)); }
 };
 
@@ -47,9 +53,9 @@ struct Axes {
   explicit Axes(int axis) : a(axis), b((axis + 1) % 3), d((axis + 2) % 3) {}
 };
 
-template <int dimensions, class Density>
-void lift_loops(const Density& density, const Constants& constants, const fluid::Boundaries& boundaries, int axis,
-                std::size_t j, Fields& fields) {
+template <int dimensions, class Metric, class Density>
+void lift_loops(const Metric& metric, const Density& density, const Constants& constants,
+                const fluid::Boundaries& boundaries, int axis, std::size_t j, Fields& fields) {
   const core::Grid& grid = constants.grid;
   const Axes axes(axis);
   const auto velocity = [&](int of) { return fields.fluid.velocity[std::size_t(of)].data(); };
@@ -59,16 +65,19 @@ void lift_loops(const Density& density, const Constants& constants, const fluid:
   };
   const auto vorticity_about = [&](int of) {
     const Axes about(of);
-    return EdgeVorticity{velocity(about.b),
-                         velocity(about.d),
-                         grid.stride(about.b),
-                         grid.stride(about.d),
-                         1 / grid.spacing[std::size_t(about.b)],
-                         1 / grid.spacing[std::size_t(about.d)]};
+    return EdgeVorticity<Metric>{metric,
+                                 std::size_t(about.b),
+                                 std::size_t(about.d),
+                                 velocity(about.b),
+                                 velocity(about.d),
+                                 grid.stride(about.b),
+                                 grid.stride(about.d),
+                                 1 / grid.spacing[std::size_t(about.b)],
+                                 1 / grid.spacing[std::size_t(about.d)]};
   };
   const SlipAcross slip_b = slip_of(axes.b), slip_d = slip_of(axes.d);
-  const EdgeVorticity about_a = vorticity_about(axes.a), about_b = vorticity_about(axes.b),
-                      about_d = vorticity_about(axes.d);
+  const EdgeVorticity<Metric> about_a = vorticity_about(axes.a), about_b = vorticity_about(axes.b),
+                              about_d = vorticity_about(axes.d);
   const bool has_b = dimensions == 3 || axes.b < 2, has_d = dimensions == 3 || axes.d < 2;
   const double *u = velocity(axis), *v = fields.solids.velocity[j][std::size_t(axis)].data();
   double* to = fields.force.on_solids[j].data();
@@ -123,10 +132,13 @@ class Lift final : public ForceEffect {
 
   void add(int axis, Fields& fields) override {
     fluid::with_density(fields.fluid, constants_.fluid.density, [&]<class Density>(const Density& local) {
-      for (std::size_t j = 0; j < constants_.species(); ++j)
-        constants_.grid.dimensions == 3
-            ? core::in_vectors<lift_loops<3, Density>>(local, constants_, boundaries_, axis, j, fields)
-            : core::in_vectors<lift_loops<2, Density>>(local, constants_, boundaries_, axis, j, fields);
+      core::with_metric(constants_.grid, [&]<class Metric>(const Metric& metric) {
+        for (std::size_t j = 0; j < constants_.species(); ++j)
+          constants_.grid.dimensions == 3 ? core::in_vectors<lift_loops<3, Metric, Density>>(
+                                                metric, local, constants_, boundaries_, axis, j, fields)
+                                          : core::in_vectors<lift_loops<2, Metric, Density>>(
+                                                metric, local, constants_, boundaries_, axis, j, fields);
+      });
     });
   }
 

@@ -112,11 +112,13 @@ void FrictionalStress::charge_upwind_work(int axis, Fields& fields) const {
   const Index under = down ? 0 : -s, above = down ? -s : 0, below = under + (down ? s : -s);
   const double *phi = fields.solids_fraction.data(), *pressure = fields.stress.pressure.data();
   const double density = mean_density(constants_);
-  const double weight =
+  const double even =
       std::abs((density - constants_.fluid.density) * constants_.gravity * lies_towards_[a]) * grid.spacing[a];
-  const double slow = weight / (density * wave_speed_), carried_whole = 0.5 * law_.onset * weight;
   double* jump = fields.stress.upwind_work[a].data();
   core::for_each_row(grid, boundaries_.moving_faces(axis, false), [&](Index begin, Index end) {
+    const bool graded = axis == 1 && grid.layers;
+    const double weight = graded ? even / grid.metric->per_distance[std::size_t(begin)] : even;
+    const double slow = weight / (density * wave_speed_), carried_whole = 0.5 * law_.onset * weight;
     for (Index f = begin; f < end; ++f) {
       jump[f] = 0;
       const double looser = 1 - phi[f + above] / law_.onset;
@@ -155,7 +157,15 @@ void FrictionalStress::hold_surface(Fields& fields) const {
         for (std::size_t j = 0; j < constants_.species(); ++j) share[j] = fields.share[j][std::size_t(packed)];
         const double load =
             along * along * law_.at(phi[packed], packing_of({share.data(), constants_.species()})).pressure;
-        const double between = on_held ? next + 2 * under : under, whole = between + 2 * phi[c];
+        // Distances of centres downwards over the one upwards: 1 where layers are even.
+        const auto apart = [&](Index cells) {
+          const auto face = [&](Index n) { return std::size_t(c + n * below + (below > 0 ? below : 0)); };
+          if (axis != 1 || !grid.layers) return 1.0;
+          return grid.metric->per_distance[face(-1)] / grid.metric->per_distance[face(cells)];
+        };
+        const double near = apart(0), far = apart(1);
+        const double between = on_held ? next * far + (near + far) * under : near * under,
+                     whole = between + (1 + near) * phi[c];
         const double held =
             on_held ? std::max(1 - phi[c] / dust, 0.0) * phi[c] / (std::abs(phi[c]) + stress_fraction_floor) : 1;
         pressure[c] = std::max(pressure[c], held * load * phi[c] / whole);

@@ -188,7 +188,7 @@ void KineticStress::add_wall_energy(Fields& fields) {
           for (std::size_t j = 0; j < grains_.size(); ++j) {
             collide(fields, j, c);
             fields.solids.temperature_rate[j][at] +=
-                2.0 / 3 * wall_gain(fields, wall, j, c) / grid.spacing[std::size_t(wall)];
+                2.0 / 3 * wall_gain(fields, wall, j, c) / grid.size_at_end(wall, side);
           }
         }
       });

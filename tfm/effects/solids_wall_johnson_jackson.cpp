@@ -50,7 +50,7 @@ class JohnsonJacksonWall : public SolidsWall {
     const auto w = std::size_t(wall), a = std::size_t(along);
     const Index s = grid.stride(along), outward = side == 0 ? -grid.stride(wall) : grid.stride(wall);
     const int third = grid.dimensions == 3 ? 3 - wall - along : along;
-    const double h = grid.spacing[w];
+    const double h = grid.size_at_end(wall, side);
     const double *phi = fields.solids_fraction.data(), *viscosity = fields.stress.viscosity.data(),
                  *contact = fields.stress.contact.data(),
                  *v = fields.solids.velocity[species][std::size_t(third)].data();

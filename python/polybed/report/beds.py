@@ -26,6 +26,13 @@ def coarse(values, share):
     return values[: ny * share, : nx * share].reshape(ny, share, nx, share).mean(axis=(1, 3))
 
 
+def even_rows(run):
+    """The layer of cells in each row of a map: rows are as high as the lowest layer, where layers are graded, too."""
+    faces = run.faces["y"]
+    count = round(faces[-1] / np.diff(faces).min())
+    return np.searchsorted(faces, (np.arange(count) + 0.5) * faces[-1] / count) - 1
+
+
 def names_of(run):
     """(field, label, kind) of the maps; a species with size classes has one map of each kind for all of them."""
     found = [(f"phi_{name}", name, "solids") for name in run.kinds] + [("voidage", "fluid", "voidage")]
@@ -35,7 +42,7 @@ def names_of(run):
 
 def read_maps(run, chosen, share):
     """The maps [step][y][x] of each field; velocities upwards, and none where their species is absent."""
-    names = names_of(run)
+    names, rows = names_of(run), even_rows(run)
     parts = {name: parts_of(run, name) for name, _, _ in names}
     maps = {name: [] for name in parts}
     for step in chosen:
@@ -47,8 +54,8 @@ def read_maps(run, chosen, share):
                 plane = np.where(sum(shares) > FEW_SOLIDS, mean_over(planes, shares), np.nan)
             else:
                 plane = sum(planes)
-            maps[name].append(coarse(np.ma.filled(as_shown(run, plane), np.nan), share).astype(np.float32))
-    return {name: np.stack(rows) for name, rows in maps.items()}
+            maps[name].append(coarse(np.ma.filled(as_shown(run, plane), np.nan)[rows], share).astype(np.float32))
+    return {name: np.stack(planes) for name, planes in maps.items()}
 
 
 def scale_of(kind, arrays):
@@ -76,7 +83,7 @@ def maps_of(run):
     """The maps for JSON, with the slider's times; None of a run without fields."""
     if len(run.time) == 0 or not names_of(run):
         return None
-    cells = in_plane(run.field(parts_of(run, names_of(run)[0][0])[0])[0]).shape[:2]
+    cells = len(even_rows(run)), in_plane(run.field(parts_of(run, names_of(run)[0][0])[0])[0]).shape[1]
     share = max(1, int(np.ceil(np.sqrt(cells[0] * cells[1] / MOST_CELLS))))
     share = min(share, *cells)
     bytes_of_step = len(names_of(run)) * (cells[0] // share) * (cells[1] // share)
@@ -96,7 +103,7 @@ def maps_of(run):
         chosen, maps = chosen[kept], {name: values[kept] for name, values in maps.items()}
     ny, nx = next(iter(maps.values())).shape[1:]
     across = faces_across(run)
-    size = [float((across[nx * share] - across[0]) * factor), float(run.faces["y"][rows * share] * factor)]
+    size = [float((across[nx * share] - across[0]) * factor), float(run.faces["y"][-1] / cells[0] * rows * share * factor)]
     notes = [f"{len(chosen)} of {len(run.time)} stored times"] if len(chosen) < len(run.time) else []
     notes += [f"each pixel is the mean of {share} x {share} cells"] if share > 1 else []
     notes += ["the plane at half depth"] if run.dimensions == 3 else ["both sides of the axis"] if around_axis(run) else []

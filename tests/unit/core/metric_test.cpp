@@ -5,7 +5,9 @@
 #include <Eigen/Dense>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
+#include "core/case/grading.hpp"
 #include "core/numerics/operators.hpp"
 #include "tests/unit/core/metric_checks.hpp"
 
@@ -147,6 +149,95 @@ TEST(RoundColumn, IsTheSameInBlocks) {
   part.after[0] = 3;
   const auto block = metric_of(part, ColumnShape::cylinder);
   test::expect_part_of(grid, *whole, part, *block);
+}
+
+// 10 m in 10 layers, graded above 4 m by at most 1.2: 6 m are left. 1.2 + 1.44 + 1.728 = 4.368 m are too little, with
+// 2.0736 m more four layers are enough; r + r2 + r3 + r4 = 6 for r = 1.168958, by Newton's method by hand.
+TEST(GradedLayers, GrowByTheLargestRatioThatFits) {
+  const std::vector<double> layers = graded_layers(10, 10, 4, 1.2);
+  ASSERT_EQ(layers.size(), 8u);
+  for (std::size_t n = 0; n < 4; ++n) EXPECT_EQ(layers[n], 1);
+  for (std::size_t n = 4; n < 8; ++n) EXPECT_NEAR(layers[n] / layers[n - 1], 1.168958, 1e-6);
+  EXPECT_NEAR(std::accumulate(layers.begin(), layers.end(), 0.0), 10, 1e-13);
+}
+
+// The layer in which a height lies is the last of the even ones.
+TEST(GradedLayers, StayEvenUpToTheHeight) {
+  EXPECT_EQ(graded_layers(10, 10, 4.01, 1.2)[4], 1);
+  EXPECT_GT(graded_layers(10, 10, 4, 1.2)[4], 1);
+  EXPECT_EQ(graded_layers(0.6, 6, 0.1, 1.2)[0], 0.6 / 6);
+  EXPECT_GT(graded_layers(0.6, 6, 0.1, 1.2)[1], 0.1);  // 0.1 m up to round-off
+}
+
+TEST(GradedLayers, AreEvenWhereNothingIsLeft) {
+  EXPECT_EQ(graded_layers(10, 10, 10, 1.2), std::vector<double>(10, 1.0));
+  EXPECT_EQ(graded_layers(10, 10, 9, 1.2), std::vector<double>(10, 1.0));
+}
+
+/// Layers of 1, 1, 2 and 4 times 0.1 m, 0.3 m wide.
+Grid graded_grid(int dimensions, int before = 0) {
+  Grid grid;
+  grid.dimensions = dimensions;
+  grid.cells = {3, 4, dimensions == 3 ? 2 : 1};
+  grid.spacing = {0.1, 0.1, 0.1};
+  grid.layers = std::make_shared<const Layers>(Layers{{0.1, 0.1, 0.2, 0.4}, {0, 0.1, 0.2, 0.4, 0.8}});
+  if (before > 0) {
+    grid.cells[1] -= before;
+    grid.before[1] = before;
+  }
+  grid.metric = metric_of(grid, ColumnShape::box);
+  return grid;
+}
+
+// By hand: volumes 1, 1, 2, 4 lowest cells; upright faces likewise, level ones 1; distances of centres over 0.1 m: 1,
+// 1.5, 3; the volume of a level face's momentum is the mean of both cells.
+TEST(GradedMetric, FollowsFromTheHeights) {
+  for (const int dimensions : {2, 3}) {
+    const Grid grid = graded_grid(dimensions);
+    const std::array<double, 4> height{1, 1, 2, 4};
+    for (int j = 0; j < 4; ++j) {
+      const auto c = std::size_t(grid.index(1, j)), y = std::size_t(j);
+      EXPECT_NEAR(grid.metric->volume[c], height[y], 1e-14);
+      EXPECT_NEAR(grid.metric->open[0][c], height[y], 1e-14);
+      EXPECT_EQ(grid.metric->open[1][c], 1);
+      if (dimensions == 3) {
+        EXPECT_NEAR(grid.metric->open[2][c], height[y], 1e-14);
+      }
+      EXPECT_NEAR(grid.metric->per_height[c], 1 / height[y], 1e-14);
+      EXPECT_NEAR(grid.metric->per_volume_on[0][c], 1 / height[y], 1e-14);
+      const double distance = j == 0 ? 1 : 0.5 * (height[y - 1] + height[y]);
+      EXPECT_NEAR(grid.metric->per_distance[c], 1 / distance, 1e-14);
+      EXPECT_NEAR(grid.metric->per_volume_on[1][c], 1 / distance, 1e-14);
+      EXPECT_NEAR(open_cells_of_layer(grid, j), height[y] * 3 * grid.cells[2], 1e-13);
+    }
+    EXPECT_EQ(grid.centre(1, 3), 0.6000000000000001);
+    EXPECT_EQ(grid.column_height(), 0.8);
+    EXPECT_NEAR(grid.low(1, 6), 1.6, 1e-14);  // continues above the top
+    test::expect_conserving(grid);
+  }
+}
+
+TEST(GradedMetric, OfABlockIsItsPartOfTheColumn) {
+  const Grid grid = graded_grid(2), part = graded_grid(2, 2);
+  for (int j = -1; j < 2; ++j) {
+    const auto here = std::size_t(part.index(0, j)), there = std::size_t(grid.index(0, j + 2));
+    EXPECT_EQ(part.metric->volume[here], grid.metric->volume[there]);
+    EXPECT_EQ(part.metric->per_distance[here], grid.metric->per_distance[there]);
+    EXPECT_EQ(part.centre(1, j), grid.centre(1, j + 2));
+  }
+}
+
+// The elliptic solvers' equation of equal cells has for p = y2 the source 2 of -div(-grad), times the volume: in a
+// layer of height h between b and a, (h + a)/2 and (b + h)/2 apart, A (p_a - p)/d - A (p - p_b)/d = A (y_a + y - y -
+// y_b).
+TEST(GradedMetric, WeighsTheEllipticEquation) {
+  const Grid grid = graded_grid(2);
+  FaceField coefficient = make_face_field(grid, 1);
+  weigh_faces(grid, coefficient);
+  const auto c = std::size_t(grid.index(1, 2)), up = std::size_t(grid.stride(1));
+  const auto p = [&](int j) { return grid.centre(1, j) * grid.centre(1, j); };
+  const double sum = coefficient[1][c + up] * (p(3) - p(2)) - coefficient[1][c] * (p(2) - p(1));
+  EXPECT_NEAR(sum / (0.1 * 0.1), (grid.centre(1, 3) - grid.centre(1, 1)) / 0.1, 1e-12);
 }
 
 }  // namespace

@@ -112,6 +112,39 @@ TEST(Weights, AreDefinedALittleOutside) {
 }
 
 // A particle that moves by a tiny step changes every share by that step over the cell at most: no jumps at faces.
+/// One cell across; layers of 2, 2, 4 and 6 mm.
+core::Grid graded_grid() {
+  core::Column column = cloud_scene(2, false).column;
+  column.layers = {2e-3, 2e-3, 4e-3, 6e-3};
+  column.size[1] = 14e-3;
+  column.cells = {1, 4, 1};
+  return core::grid_of(column, nullptr);
+}
+
+// y = 5 mm lies a quarter up the layer from 4 to 8 mm: 2.25 layers from the bottom, 0.25 from the layer's centre.
+TEST(Weights, CountGradedLayersAsCells) {
+  const core::Grid g = graded_grid();
+  const Vector x{0.5 * g.spacing[0], 5e-3, 0};
+  expect(cells_of(g, x), {{g.index(0, 1), 0.25}, {g.index(0, 2), 0.75}});
+  expect(faces_of(g, x, 1), {{g.index(0, 2), 0.75}, {g.index(0, 3), 0.25}});
+}
+
+// Places all over the column give a face its volume, the mean of both layers, and a cell an eighth of each neighbour
+// and three quarters of its own: 0.125 * 2 + 0.75 * 4 + 0.125 * 6 = 4 mm.
+TEST(Weights, FillFacesOfGradedLayersEvenly) {
+  const core::Grid g = graded_grid();
+  Shares faces, cells;
+  constexpr int places = 14000;
+  for (int n = 0; n < places; ++n) {
+    const Vector x{0.5 * g.spacing[0], (n + 0.5) * 14e-3 / places, 0};
+    for (const auto& [at, share] : faces_of(g, x, 1)) faces[at] += share * 14.0 / places;
+    for (const auto& [at, share] : cells_of(g, x)) cells[at] += share * 14.0 / places;
+  }
+  EXPECT_NEAR(faces[g.index(0, 2)], 3, 1e-6);  // the rule's error, (1/2000)^2 of a layer at each kink
+  EXPECT_NEAR(faces[g.index(0, 3)], 5, 1e-6);
+  EXPECT_NEAR(cells[g.index(0, 2)], 4, 1e-6);
+}
+
 TEST(Weights, AreContinuousAcrossFaces) {
   const core::Grid g = grid(3, true);
   std::mt19937_64 random(3);

@@ -282,13 +282,27 @@ double open_volume(const core::Grid& grid, const Place& place, std::size_t c) {
   return metric.open[a][c] > 0 ? 1 / metric.per_volume_on[a][c] : 0;
 }
 
+/// Seven layers, the upper ones each 1.2 times as high as the one below.
+std::shared_ptr<const core::Layers> graded_layers(double lowest) {
+  core::Layers layers{{}, {0}};
+  for (int n = 0; n < 7; ++n) layers.height.push_back(n < 3 ? lowest : 1.2 * layers.height.back());
+  for (const double height : layers.height) layers.low.push_back(layers.low.back() + height);
+  return std::make_shared<const core::Layers>(layers);
+}
+
 // Weighed by open volumes: the sum stays, and the operator is its own transpose, though its axes do not commute.
-TEST(Smoothing, OfARoundColumnIsConservativeAndSymmetricByVolume) {
+TEST(Smoothing, OfARoundOrGradedColumnIsConservativeAndSymmetricByVolume) {
+  using enum core::ColumnShape;
   for (const auto& cells : {std::array{4, 4}, {9, 9}, {8, 12}})
-    for (const bool closed : {true, false}) {
+    for (const auto& [shape, graded, closed] : {std::tuple{cylinder, false, true},
+                                                {cylinder, false, false},
+                                                {cylinder, true, true},
+                                                {box, true, true},
+                                                {box, true, false}}) {
       core::Grid grid = grid_of({"", 3, {cells[0], 7, cells[1]}, {}, 0, closed});
       grid.spacing = {1, 1.5, double(cells[0]) / cells[1]};
-      grid.metric = core::metric_of(grid, core::ColumnShape::cylinder);
+      if (graded) grid.layers = graded_layers(1.5);
+      grid.metric = core::metric_of(grid, shape);
       const Smoothing smoothing(grid, 4, closed);
       for (const Place& place : places(grid, closed)) {
         Field volume = core::make_field(grid), constant = volume, a = volume, b = volume;
