@@ -64,6 +64,17 @@ class CoupledCases(Scratch):
         self.assertEqual(record["particles"], 990 + fed - out)
         self.assertTrue(all(invariant["held"] for invariant in record["invariants"]), record["invariants"])
 
+    def test_a_graded_freeboard_leaves_the_bed_as_it_is(self):
+        """The flow through a held bed, whose cells are the same; 1e-8 is the tolerance of the pressure."""
+        drops = []
+        for above in (0.1, 0.5):  # 45 and 115 layers
+            _, directory = self.dem("freeboard", run__until=0.02, dem__held="true", inlet__superficial_velocity=0.03,
+                                    column__graded_above=above)
+            drops.append(history(directory)["pressure_drop_Pa"][-1])
+            directory.rename(directory.with_name(f"freeboard-{len(drops)}"))
+        self.assertAlmostEqual(drops[0] / drops[1], 1, delta=1e-6)
+        self.assertGreater(drops[0], 300)
+
     def test_fines_leave_an_elutriator(self):
         """A column half as high: a free fine bead rises at 60 - 23 mm/s, so that those from the upper half of the bed, 10 mm high, have
         risen 11 mm by 0.3 s. The coarse beads fall at 146 mm/s."""
