@@ -220,7 +220,7 @@ constexpr std::size_t screen = 25;  // lines
 void add_continuum(const core::Scene& scene, const Requirements& need, std::vector<std::string>& lines) {
   const std::string time = need.time ? computing_text(tfm_time(scene, need, known_machine()))
                                      : "time not known: the numbers failed in a sample";
-  if (const std::string shape = shape_text(scene.column); !shape.empty()) lines.push_back(card_line("column", shape));
+  if (const std::string shape = shape_text(scene); !shape.empty()) lines.push_back(card_line("column", shape));
   lines.push_back(card_line("polybed tfm", fmt::format("{:.4g} s on {} cells: {}; {:.0f} MB of memory", scene.run.until,
                                                        need.cells, time, mega * need.memory.total())));
 }

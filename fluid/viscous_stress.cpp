@@ -5,6 +5,7 @@
 #include "core/numerics/operators.hpp"
 #include "core/numerics/ranks.hpp"
 #include "core/vectors.hpp"
+#include "fluid/convection.hpp"
 #include "fluid/density.hpp"
 #include "fluid/face_stress.hpp"
 
@@ -17,10 +18,11 @@ namespace {
 
 template <std::size_t dimensions, class Metric, class Density>
 void add_with(const Metric& metric, const Density& density, const core::Grid& grid, const Boundaries& boundaries,
-              const FluidState& fluid, double viscosity, core::FaceField& acceleration) {
+              const FluidState& fluid, const core::FaceField& velocity, double viscosity,
+              core::FaceField& acceleration) {
   const double* eps = fluid.voidage.data();
   core::for_each_axis<dimensions>([&](auto axis) __attribute__((always_inline)) {
-    const FaceStress<dimensions, axis, Metric> stress(metric, grid, fluid.voidage, fluid.velocity);
+    const FaceStress<dimensions, axis, Metric> stress(metric, grid, fluid.voidage, velocity);
     const Index s = grid.stride(int(axis));
     double* rate = acceleration[axis].data();
     core::for_each_row(grid, boundaries.moving_faces(int(axis), true), [&](Index begin, Index end) {
@@ -88,14 +90,20 @@ double viscous_rate(const core::Grid& grid) {
 
 void add_viscous_stress(const core::Grid& grid, const Boundaries& boundaries, const FluidState& fluid,
                         const relevance::FluidConstants& constants, core::FaceField& acceleration) {
+  core::FaceField
+      along_walls;  // on stairs of cells no velocity is rubbed by closed faces: the wall's friction is apart
+  const bool inner = grid.metric && grid.metric->walls;
+  for (int axis = 0; inner && axis < grid.dimensions; ++axis)
+    along_walls[std::size_t(axis)] = slipping(grid, boundaries, fluid.velocity[std::size_t(axis)], axis);
+  const core::FaceField& velocity = inner ? along_walls : fluid.velocity;
   with_density(fluid, constants.density, [&]<class Density>(const Density& local) {
     core::with_metric(grid, [&]<class Metric>(const Metric& metric) {
       if (grid.dimensions == 2)
-        core::in_vectors<add_with<2, Metric, Density>>(metric, local, grid, boundaries, fluid, constants.viscosity,
-                                                       acceleration);
+        core::in_vectors<add_with<2, Metric, Density>>(metric, local, grid, boundaries, fluid, velocity,
+                                                       constants.viscosity, acceleration);
       else
-        core::in_vectors<add_with<3, Metric, Density>>(metric, local, grid, boundaries, fluid, constants.viscosity,
-                                                       acceleration);
+        core::in_vectors<add_with<3, Metric, Density>>(metric, local, grid, boundaries, fluid, velocity,
+                                                       constants.viscosity, acceleration);
     });
   });
   if (grid.metric)

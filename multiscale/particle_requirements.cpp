@@ -104,7 +104,7 @@ double courant_of(const core::Scene& scene, double dt) {
   see(scene.inlet.superficial_velocity);
   inflow *= scene.column.contraction();
   for (const core::Jet& jet : scene.jets) see(jet.superficial_velocity);
-  const core::Grid grid = core::grid_of(scene.column, nullptr);
+  const core::Grid grid = core::grid_of(scene, nullptr);
   const double convected = inflow / (1 - scene.bed.solids_fraction) * dt / grid.smallest_spacing();
   if (!core::acts(scene, "fluid_stress")) return convected;
   const relevance::FluidConstants fluid = relevance::fluid_constants(scene.fluid);
@@ -116,7 +116,7 @@ constexpr double mega = 1e-6;
 std::optional<FluidNeed> fluid_need(const core::Scene& scene, const dem::Materials& materials, std::int64_t particles,
                                     double dt, double steps) {
   if (!couples(scene)) return {};
-  const core::Grid grid = core::grid_of(scene.column, nullptr);
+  const core::Grid grid = core::grid_of(scene, nullptr);
   FluidNeed need;
   need.every = scene.dem.fluid_every.value_or(core::most_fluid_every);
   need.step = need.every * dt;

@@ -1,6 +1,7 @@
 #include "multiscale/requirements.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -31,6 +32,7 @@ void draw_in(core::Scene& scene, std::size_t axis, int cells) {
                                                            : double(cells) / column.cells[axis];
   scene.bed.particles.clear();  // volume_share and static_height give the same amount
   column.profile.clear();       // a part of the inside of a round column
+  scene.walls.clear();
   column.cells[axis] = cells;
   column.size[axis] *= share;
   const auto draw = [&](auto& part, core::ColumnFace at) {
@@ -191,8 +193,9 @@ std::size_t unknowns_of(const core::Scene& scene, const tfm::Model& model) {
   return model.layout_on(grid).size();
 }
 
-/// Of the cross-section of a round column.
+/// Of the cross-section of a round column; empty for a box.
 std::string round_text(const core::Column& column) {
+  if (column.shape == core::ColumnShape::box) return "";
   const double radius = column.around_axis() ? column.size[0] : 0.5 * column.size[0];
   const std::string across = fmt::format("round, {:.4g} mm across", 2e3 * radius);
   const bool tapered = column.is_tapered();
@@ -221,7 +224,9 @@ std::string round_text(const core::Column& column) {
       1e3 * column.cross_section() * column.even_height(column.size[1]), open, layers * cells, least);
 }
 
+/// Of graded layers; else empty.
 std::string layers_text(const core::Column& column) {
+  if (column.layers.empty()) return "";
   const std::vector<double>& layers = column.layers;
   return fmt::format(
       "{} layers instead of {:.0f}: {:.4g} mm high up to {:.4g} m, then each {:.4g} times the one below, {:.4g} "
@@ -229,6 +234,25 @@ std::string layers_text(const core::Column& column) {
       layers.size(), column.size[1] / layers.front(), 1e3 * layers.front(),
       layers.front() * double(std::count(layers.begin(), layers.end(), layers.front())),
       layers.back() / layers[layers.size() - 2], 1e3 * layers.back());
+}
+
+/// Open volume and cells between walls inside; empty without walls that a fluid meets.
+std::string walls_text(const core::Scene& scene) {
+  const core::Grid grid = core::grid_of(scene, nullptr);
+  if (!grid.metric || !grid.metric->walls) return "";
+  std::size_t open = 0;
+  double volume = 0, least = 1;
+  for (int y = 0; y < grid.cells[1]; ++y)
+    for (std::size_t c = 0; c < grid.metric->layer(y).volume.size(); ++c) {
+      const double theta = grid.metric->layer(y).volume[c],
+                   whole = scene.column.around_axis() ? double(2 * c + 1) / grid.cells[0] : 1.0;
+      if (!(theta > 0)) continue;
+      ++open;
+      volume += theta;
+      least = std::min(least, theta / whole);
+    }
+  return fmt::format("{:.4g} l open between {} [[wall]], {} of {} cells, the smallest {:.2g} of a whole one",
+                     1e3 * volume * grid.cell_volume(), scene.walls.size(), open, grid.cell_count(), least);
 }
 
 }  // namespace
@@ -251,10 +275,11 @@ core::Scene narrow_part(const core::Scene& scene, std::size_t most_cells) {
   return part;
 }
 
-std::string shape_text(const core::Column& column) {
-  const std::string shape = column.shape == core::ColumnShape::box ? "" : round_text(column);
-  if (column.layers.empty()) return shape;
-  return shape + (shape.empty() ? "" : "; ") + layers_text(column);
+std::string shape_text(const core::Scene& scene) {
+  std::vector<std::string> parts;
+  for (const std::string& part : {round_text(scene.column), walls_text(scene), layers_text(scene.column)})
+    if (!part.empty()) parts.push_back(part);
+  return fmt::format("{}", fmt::join(parts, "; "));
 }
 
 Requirements requirements_of(const core::Scene& scene, core::Timers& timers, std::unique_ptr<tfm::Model>& model) {

@@ -53,8 +53,8 @@ struct Requirements {
 /// with the bed. Cell size, velocities and composition, which determine the steps, stay.
 [[nodiscard]] core::Scene narrow_part(const core::Scene& scene, std::size_t most_cells);
 
-/// Position of a round column on its grid, and its graded layers, in words; else empty.
-[[nodiscard]] std::string shape_text(const core::Column& column);
+/// Position of a round column on its grid, what walls inside leave open, and graded layers, in words; else empty.
+[[nodiscard]] std::string shape_text(const core::Scene& scene);
 
 /// Builds and steps a narrow part of the case for at most about a second.
 /// \param model  receives the model of the part, for further results from a case

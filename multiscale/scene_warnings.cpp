@@ -175,6 +175,19 @@ void warn_of_missing_start(const core::Scene& scene, Lines& warnings) {
         fmt::format("bed.start = \"checkpoint:{}\": no such file yet, and a run begins from it", path.string()));
 }
 
+/// Warns of walls inside that too few cells resolve.
+void warn_of_small_obstacles(const core::Scene& scene, Lines& warnings) {
+  constexpr double least = 3;
+  const core::Column& column = scene.column;
+  const double cell = std::max(column.size[0] / column.cells[0], column.size[1] / column.cells[1]);
+  for (std::size_t n = 0; n < scene.walls.size() && scene.fluid.present(); ++n)
+    if (const double cells = scene.walls[n].thickness / cell; cells < least * (1 - 1e-9))
+      warnings.push_back(fmt::format(
+          "[[wall]] number {} is {:.2g} cells thick: its flow is that around a thicker, rougher one; {} cells or more "
+          "resolve it",
+          n + 1, cells, least));
+}
+
 }  // namespace
 
 std::vector<std::string> scene_warnings(const core::Scene& scene) {
@@ -196,6 +209,7 @@ std::vector<std::string> scene_warnings(const core::Scene& scene) {
 
 std::vector<std::string> grid_warnings(const core::Scene& scene) {
   Lines warnings;
+  warn_of_small_obstacles(scene, warnings);
   warn_of_coarse_grid(scene, warnings);
   warn_of_fine_grid(scene, warnings);
   return warnings;

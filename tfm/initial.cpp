@@ -35,6 +35,16 @@ std::vector<double> layers_of(const core::Grid& grid) {
   return layers;
 }
 
+/// Checks that the layers, between walls inside, contain all the solids.
+/// \param solids  over the bottom, m
+void require_room_between_walls(double solids, const std::vector<double>& column, const core::Grid& grid) {
+  if (!grid.metric || !grid.metric->walls) return;
+  const std::vector<double> layers = layers_of(grid);
+  const double placed = std::inner_product(layers.begin(), layers.end(), column.begin(), 0.0);
+  if (placed < solids * (1 - 1e-9))
+    throw core::StartError("the bed at its start does not fit beside [[wall]]: enlarge column.size");
+}
+
 /// Solids fraction of cells in a column that is filled evenly from the bottom; the topmost cell gets the remainder.
 std::vector<double> even_column(double solids, double fraction, const std::vector<double>& layers) {
   std::vector<double> column;
@@ -201,6 +211,7 @@ void fill_whole_cells(const core::Scene& scene, const Constants& constants, cons
   } else {
     column = even_column(total, bed.start_solids_fraction, layers_of(grid));
   }
+  require_room_between_walls(total, column, grid);
   const bool uneven = bed.start.kind == core::StartKind::mixed && bed.perturbation > 0 &&
                       grid.column_cells(0) * grid.column_cells(2) > 1;
   for (int y = 0; y < grid.column_cells(1); ++y) {

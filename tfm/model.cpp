@@ -26,7 +26,7 @@ namespace {
 
 Constants make_constants(const core::Scene& scene, const std::shared_ptr<const core::Ranks>& ranks) {
   Constants constants;
-  constants.grid = core::grid_of(scene.column, ranks);
+  constants.grid = core::grid_of(scene, ranks);
   constants.gravity = scene.column.gravity;
   constants.down = scene.column.down;
   constants.fluid = relevance::fluid_constants(scene.fluid);
@@ -61,10 +61,9 @@ Model::Model(const core::Scene& scene, core::Timers& timers, const std::shared_p
       options_(scene.tfm),
       momentum_(momentum_of(continuum_scene(scene))),
       equations_(scene, make_constants(scene, ranks),
-                 fluid::Boundaries(core::grid_of(scene.column, ranks), fluid::ends_of(scene),
+                 fluid::Boundaries(core::grid_of(scene, ranks), fluid::ends_of(scene),
                                    scene.column.outlet == core::Outlet::open, fluid::crossed_sides(scene)),
-                 fluid::Inlet(core::grid_of(scene.column, ranks), scene), make_discretisation(scene.tfm, momentum_),
-                 timers),
+                 fluid::Inlet(core::grid_of(scene, ranks), scene), make_discretisation(scene.tfm, momentum_), timers),
       integrator_(choose_integrator(scene, constants(), effects(), inlet().greatest())),
       layout_(constants().grid, int(constants().species()),
               integrator_.kind == core::TfmIntegrator::implicit_steps || compressible(), transports_temperature(),

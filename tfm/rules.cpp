@@ -32,6 +32,12 @@ Broken wall_without_viscosity(const Scene& scene) {
                          !relevance::effects::solids_stress.has(scene, relevance::effects::with_collisions));
 }
 
+/// Walls inside the column that cut the cells.
+Broken solids_held_by_inner_walls(const Scene& scene) {
+  if (scene.walls.empty() || scene.tfm.solids_wall == core::SolidsWall::free_slip) return {};
+  return Broken({std::string(core::name_of(scene.tfm.solids_wall))});
+}
+
 /// Walls that stop the solids' motion must follow the grid, as they do around an axis.
 Broken solids_held_by_a_round_wall(const Scene& scene) {
   const core::ColumnShape shape = scene.column.shape;
@@ -57,7 +63,7 @@ core::Rule for_particles(std::vector<std::string> keys, const std::string& what,
 Broken outlet_fed_shut(const Scene& scene) {
   Broken broken;
   if (scene.column.outlet != core::Outlet::open || scene.column.closed) return broken;
-  const core::Grid grid = core::grid_of(scene.column, nullptr);
+  const core::Grid grid = core::grid_of(scene, nullptr);
   std::map<std::string, std::vector<double>> fed;  // on each face, by species
   for (std::size_t n = 0; n < scene.feeds.size(); ++n) {
     const core::Feed& feed = scene.feeds[n];
@@ -76,7 +82,7 @@ Broken outlet_fed_shut(const Scene& scene) {
 Broken on_closed_cells(const Scene& scene) {
   Broken broken;
   if ((!scene.column.is_round() && !scene.column.is_tapered()) || scene.column.closed) return broken;
-  const core::Grid grid = core::grid_of(scene.column, nullptr);
+  const core::Grid grid = core::grid_of(scene, nullptr);
   const auto see = [&](const auto& parts, const char* what) {
     for (std::size_t n = 0; n < parts.size(); ++n) {
       const std::vector<double> share = fluid::face_shares(grid, parts[n].from, parts[n].to, parts[n].at);
@@ -93,7 +99,7 @@ Broken on_closed_cells(const Scene& scene) {
 /// A discharge and a feed through one face of a cell, where the solids have only one velocity.
 Broken discharge_beside_a_feed(const Scene& scene) {
   Broken broken;
-  const core::Grid grid = core::grid_of(scene.column, nullptr);
+  const core::Grid grid = core::grid_of(scene, nullptr);
   const auto shares = [&](const auto& part) { return fluid::face_shares(grid, part.from, part.to, part.at); };
   for (std::size_t n = 0; n < scene.discharges.size(); ++n)
     for (std::size_t k = 0; k < scene.feeds.size(); ++k) {
@@ -157,6 +163,9 @@ std::vector<core::Rule> key_rules() {
        "column.shape = \"{}\" and tfm.solids_wall = \"{}\" cannot be combined yet: the solids slip freely along round "
        "walls",
        solids_held_by_a_round_wall},
+      {{"wall.shape", "wall.thickness", "tfm.solids_wall"},
+       "[[wall]] and tfm.solids_wall = \"{}\" cannot be combined yet: the solids slip freely along walls inside",
+       solids_held_by_inner_walls},
       {{"tfm.fixed_step", "tfm.integrator"},
        "tfm.fixed_step works with explicit and imex steps only",
        [](const Scene& scene) { return core::broken_if(is_implicit(scene) && scene.tfm.fixed_step); }}};

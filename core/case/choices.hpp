@@ -19,8 +19,8 @@ enum class ColumnShape { box, cylinder, axisymmetric };
 constexpr std::array<std::string_view, 3> names(ColumnShape) { return {"box", "cylinder", "axisymmetric"}; }
 
 /// Shape of a wall inside the column.
-enum class WallShape { flat, cylinder, cone };
-constexpr std::array<std::string_view, 3> names(WallShape) { return {"flat", "cylinder", "cone"}; }
+enum class WallShape { flat, cylinder, cone, rod };
+constexpr std::array<std::string_view, 4> names(WallShape) { return {"flat", "cylinder", "cone", "rod"}; }
 
 /// Whether solids leave at the top.
 enum class Outlet { screen, open };

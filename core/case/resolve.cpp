@@ -129,6 +129,8 @@ double largest_diameter(const Scene& scene) {
 void resolve(Scene& scene, const std::string& case_name, WrongKeys& wrong) {
   join_times(scene);
   resolve_materials(scene);
+  for (InnerWall& wall : scene.walls)
+    if (wall.shape == WallShape::rod && wall.to.empty()) wall.to = wall.from;
   fill_output(scene);
   find_files_of_laws(scene, case_name);
   if (wrong.sound("column.size")) {

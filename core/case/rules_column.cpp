@@ -106,7 +106,12 @@ std::vector<Rule> grading_rules() {
            nothing_above},
           {{"column.grading", "column.profile", "column.shape"},
            "column.grading and column.profile cannot be combined yet: leave out one of them",
-           [](const Scene& scene) { return broken_if(scene.column.grading && scene.column.is_tapered()); }}};
+           [](const Scene& scene) { return broken_if(scene.column.grading && scene.column.is_tapered()); }},
+          {{"column.grading", "wall.thickness", "fluid.name"},
+           "column.grading and [[wall]] in a fluid cannot be combined yet: leave out one of them",
+           [](const Scene& scene) {
+             return broken_if(scene.column.grading && scene.fluid.present() && !scene.walls.empty());
+           }}};
 }
 
 std::vector<Rule> gravity_rules() {

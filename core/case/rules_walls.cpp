@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/case/case_rules.hpp"
@@ -199,7 +200,8 @@ Broken wall_ends_miscounted(const Scene& scene) {
   Broken broken;
   for (std::size_t n = 0; n < scene.walls.size(); ++n) {
     const InnerWall& wall = scene.walls[n];
-    if (wall.from.size() != 2 || wall.to.size() != 2)
+    const bool rod = wall.shape == WallShape::rod, alone = rod && wall.to.empty();
+    if (wall.from.size() != 2 || (!alone && wall.to.size() != 2) || (rod && !alone && wall.from != wall.to))
       broken.add({std::to_string(wall.from.size()), std::to_string(wall.to.size())}, n);
   }
   return broken;
@@ -223,7 +225,8 @@ Broken walls_outside(const Scene& scene) {
 Broken walls_without_length(const Scene& scene) {
   Broken broken;
   for (std::size_t n = 0; n < scene.walls.size(); ++n)
-    if (scene.walls[n].from == scene.walls[n].to) broken.add({std::to_string(n + 1)}, n);
+    if (scene.walls[n].shape != WallShape::rod && scene.walls[n].from == scene.walls[n].to)
+      broken.add({std::to_string(n + 1)}, n);
   return broken;
 }
 
@@ -242,7 +245,8 @@ Broken walls_too_narrow(const Scene& scene) {
   for (std::size_t n = 0; n < scene.walls.size(); ++n) {
     const InnerWall& wall = scene.walls[n];
     if (!wall.is_round() || wall.from.empty() || wall.to.empty()) continue;
-    const double narrowest = std::min(wall.from[0], wall.to[0]);
+    const double narrowest = std::min(wall.from[0], wall.to[0]) - wall.thickness;
+    if (wall.thickness > 0 && narrowest <= 0) continue;  // solid
     const auto large = std::find_if(scene.species.begin(), scene.species.end(),
                                     [&](const Species& species) { return too_narrow(narrowest, species); });
     if (large != scene.species.end())
@@ -255,9 +259,46 @@ Broken walls_too_narrow(const Scene& scene) {
 /// Flat walls next to a round column or another round wall: both would push where they meet.
 Broken flat_beside_round(const Scene& scene) {
   Broken broken;
-  const bool round = scene.column.is_round() || has_round_wall(scene);
+  const bool round = scene.column.shape != ColumnShape::box || has_round_wall(scene);
   for (std::size_t n = 0; n < scene.walls.size(); ++n)
     if (round && !scene.walls[n].is_round()) broken.add({std::to_string(n + 1)}, n);
+  return broken;
+}
+
+/// Least thickness of a wall in a fluid, m: no cell then has open parts on both sides of it. A rod of two cells closes
+/// at least one.
+double least_thickness(const Column& column, const InnerWall& wall) {
+  std::array<double, 3> h{};
+  for (std::size_t a = 0; a < 3; ++a) h[a] = column.size[a] / column.cells[a];
+  if (wall.shape == WallShape::rod) return 2 * std::max(h[0], h[1]);
+  const double along = wall.to[0] - wall.from[0], up = (wall.is_round() ? 2 : 1) * (wall.to[1] - wall.from[1]);
+  const double across = wall.is_round() && !column.around_axis() ? std::hypot(h[0], h[2]) : h[0];
+  return (across * std::abs(up) + h[1] * std::abs(along)) / std::hypot(along, up);
+}
+
+Broken walls_too_thin(const Scene& scene) {
+  Broken broken;
+  for (std::size_t n = 0; n < scene.walls.size(); ++n) {
+    const InnerWall& wall = scene.walls[n];
+    if (wall.from.empty() || wall.to.empty() || (!scene.fluid.present() && wall.shape != WallShape::rod)) continue;
+    const double least = scene.fluid.present() ? least_thickness(scene.column, wall) : 0;
+    if (wall.thickness == 0 || wall.thickness < least * (1 - 1e-9))
+      broken.add({std::to_string(n + 1), fmt::format("{:.4g}", wall.thickness), fmt::format("{:.4g}", least)}, n);
+  }
+  return broken;
+}
+
+/// Walls in the way of what enters evenly through the bottom, and on which the size of the bed depends.
+Broken walls_on_the_bottom(const Scene& scene) {
+  Broken broken;
+  const double least = scene.column.size[1] / scene.column.cells[1];
+  for (std::size_t n = 0; n < scene.walls.size(); ++n) {
+    const InnerWall& wall = scene.walls[n];
+    if (!scene.fluid.present() || wall.from.size() != 2 || wall.to.size() != 2) continue;
+    const double low = std::min(wall.from[1], wall.to[1]) - 0.5 * wall.thickness;
+    if (low < least * (1 - 1e-9))
+      broken.add({std::to_string(n + 1), fmt::format("{:.4g}", low), fmt::format("{:.4g}", least)}, n);
+  }
   return broken;
 }
 
@@ -269,38 +310,49 @@ Rule wall_rule(const std::string& key, const std::string& message, bool (*wrong)
 }
 
 std::vector<Rule> rules_of_each_wall() {
-  return {{{"wall.from", "wall.to"},
-           "wall.from and wall.to have {} and {} numbers: 2 here, x and y, or diameter and height of a round one",
-           wall_ends_miscounted,
-           true},
-          {{"wall.from", "wall.to", "wall.shape", "species.diameter"},
-           "[[wall]] number {} is {} m in diameter at its narrow end, less than two particles, {} m: widen it",
-           walls_too_narrow,
-           true},
-          {{"wall.shape", "wall.from", "wall.to"},
-           "[[wall]] number {} has diameters of {} and {} m: a cylinder has one; use shape = \"cone\"",
-           cylinders_of_two_diameters},
-          {{"wall.from", "wall.to", "wall.shape", "column.size"},
-           "[[wall]] number {} does not lie in the column, {} m wide and {} m high",
-           walls_outside},
-          {{"wall.from", "wall.to"}, "[[wall]] number {} has no length: its ends are one point", walls_without_length},
-          {{"wall.shape", "column.shape"},
-           "[[wall]] number {} is flat beside round walls: use shape = \"cone\" or \"cylinder\" for all of them, or "
-           "column.shape = \"box\" and flat ones",
-           flat_beside_round}};
+  return {
+      {{"wall.from", "wall.to"},
+       "wall.from and wall.to have {} and {} numbers: 2 here, x and y, or diameter and height of a round one",
+       wall_ends_miscounted,
+       true},
+      {{"wall.from", "wall.to", "wall.shape", "species.diameter"},
+       "[[wall]] number {} is {} m in diameter at its narrow end, less than two particles, {} m: widen it",
+       walls_too_narrow,
+       true},
+      {{"wall.shape", "wall.from", "wall.to"},
+       "[[wall]] number {} has diameters of {} and {} m: a cylinder has one; use shape = \"cone\"",
+       cylinders_of_two_diameters},
+      {{"wall.from", "wall.to", "wall.shape", "column.size"},
+       "[[wall]] number {} does not lie in the column, {} m wide and {} m high",
+       walls_outside},
+      {{"wall.from", "wall.to"}, "[[wall]] number {} has no length: its ends are one point", walls_without_length},
+      {{"wall.thickness", "wall.from", "wall.to", "column.size", "column.cells", "fluid.name"},
+       "[[wall]] number {} is {} m thick, in the fluid it needs {} m or more on these cells, a rod twice as much as "
+       "a cell: give wall.thickness, take smaller cells, or set fluid.name = \"none\"",
+       walls_too_thin},
+      {{"wall.from", "wall.to", "wall.thickness", "column.size", "column.cells", "fluid.name"},
+       "[[wall]] number {} begins {} m above the bottom, through which the fluid enters: at least one cell, {} m",
+       walls_on_the_bottom},
+      {{"wall.shape", "column.shape"},
+       "[[wall]] number {} is flat beside round walls: use shape = \"cone\" or \"cylinder\" for all of them, or "
+       "column.shape = \"box\" and flat ones",
+       flat_beside_round}};
 }
 
 std::vector<Rule> rules_of_any_wall() {
-  return {wall_rule("fluid.name", "a fluid would pass through it; set fluid.name = \"none\"",
-                    [](const Scene& scene) { return scene.fluid.present(); }),
-          wall_rule("column.sides", "column.sides = \"periodic\" would end it at the side; use \"wall\"",
-                    [](const Scene& scene) { return scene.column.sides == Boundary::periodic; }),
-          wall_rule("column.ends", "column.ends = \"periodic\" would end it at the bottom; use \"wall\"",
-                    [](const Scene& scene) { return scene.column.ends == Boundary::periodic; }),
-          wall_rule("column.size", "a cone or cylinder needs three dimensions; give column.size three numbers",
-                    [](const Scene& scene) { return has_round_wall(scene) && scene.column.dimensions != 3; }),
-          wall_rule("bed.start", "bed.start = \"random\" would place particles on both sides of it; use \"mixed\"",
-                    [](const Scene& scene) { return scene.bed.start.kind == StartKind::random; })};
+  return {
+      wall_rule("bed.start", "bed.start = \"layered\" cannot be combined with it in a fluid; use \"mixed\"",
+                [](const Scene& scene) { return scene.fluid.present() && scene.bed.start.kind == StartKind::layered; }),
+      wall_rule("column.sides", "column.sides = \"periodic\" would end it at the side; use \"wall\"",
+                [](const Scene& scene) { return scene.column.sides == Boundary::periodic; }),
+      wall_rule("column.ends", "column.ends = \"periodic\" would end it at the bottom; use \"wall\"",
+                [](const Scene& scene) { return scene.column.ends == Boundary::periodic; }),
+      wall_rule("column.size", "a cone or cylinder needs three dimensions; give column.size three numbers",
+                [](const Scene& scene) {
+                  return has_round_wall(scene) && scene.column.dimensions != 3 && !scene.column.around_axis();
+                }),
+      wall_rule("bed.start", "bed.start = \"random\" would place particles on both sides of it; use \"mixed\"",
+                [](const Scene& scene) { return scene.bed.start.kind == StartKind::random; })};
 }
 
 }  // namespace

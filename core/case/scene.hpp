@@ -159,12 +159,14 @@ struct Jet {
 };
 
 /// A wall inside the column that particles meet from both sides: flat across the whole depth, or round with the upright
-/// axis of the column.
+/// axis of the column. It consists of all points within half its thickness of a surface.
 struct InnerWall {
-  std::vector<double> from, to;  ///< its ends, m: x and y; for a round wall diameter and height
+  std::vector<double> from, to;  ///< ends of that surface, m: x and y; for a round wall diameter and height
   WallShape shape = WallShape::flat;
+  double thickness = 0;  ///< m; a fluid needs one
 
-  [[nodiscard]] bool is_round() const { return shape != WallShape::flat; }
+  /// Whether its profile turns about the axis; a rod is a flat wall of no length.
+  [[nodiscard]] bool is_round() const { return shape == WallShape::cylinder || shape == WallShape::cone; }
 };
 
 /// The walls of a round column where it is narrower than its widest part, as cones.

@@ -226,12 +226,17 @@ Table wall_table() {
       "wall", &Scene::walls,
       {
           key(&InnerWall::shape, "shape",
-              help("of a wall inside the column, for dry particles. flat: as deep as the column; cone: about its "
-                   "upright axis, cut off at both ends; cylinder: a cone of one diameter. Particles start above all "
-                   "walls")),
+              help("of a wall inside the column. flat: as deep as the column; cone: about its upright axis, cut off "
+                   "at both ends; cylinder: a cone of one diameter; rod: round and solid, as deep as the column")),
           key(&InnerWall::from, "from", dimension::length, range(0, 1e3), Mark::required,
-              help("one end: [x, y] (width, height) of a flat wall, [diameter, height] of a cone or cylinder")),
-          key(&InnerWall::to, "to", dimension::length, range(0, 1e3), Mark::required, help("the other end")),
+              help("one end: [x, y] (width, height) of a flat wall, [diameter, height] of a cone or cylinder, both in "
+                   "the middle of its thickness; or the centre of a rod")),
+          key(&InnerWall::to, "to", dimension::length, range(0, 1e3), help("the other end; not of a rod")),
+          key(&InnerWall::thickness, "thickness", dimension::length, range(0, 1e3),
+              help("of the wall, with rounded edges, or diameter of a rod. Without it the wall is a sheet, which only "
+                   "particles without a fluid meet. A fluid needs at least a cell in every direction across the wall; "
+                   "an obstacle of three cells or more is resolved. The cells keep their open shares (see "
+                   "theory/numerics.md): no slip for the fluid, free slip for solids of the TFM")),
       });
 }
 

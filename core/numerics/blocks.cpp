@@ -84,7 +84,13 @@ Grid block_of(const Grid& column, const std::shared_ptr<const Ranks>& ranks, int
   return block;
 }
 
-Grid grid_of(const Column& column, const std::shared_ptr<const Ranks>& ranks) {
+Grid grid_of(const Scene& scene, const std::shared_ptr<const Ranks>& ranks) {
+  const auto meets_fluid = [&](const InnerWall& wall) { return scene.fluid.present() && wall.thickness > 0; };
+  const bool cut = std::any_of(scene.walls.begin(), scene.walls.end(), meets_fluid);
+  return grid_of(scene.column, ranks, cut ? std::make_shared<std::vector<InnerWall>>(scene.walls) : nullptr);
+}
+
+Grid grid_of(const Column& column, const std::shared_ptr<const Ranks>& ranks, const InsideWalls& walls) {
   Grid grid;
   grid.dimensions = column.dimensions;
   grid.cells = column.cells;
@@ -93,7 +99,7 @@ Grid grid_of(const Column& column, const std::shared_ptr<const Ranks>& ranks) {
   grid.periodic[0] = column.sides == core::Boundary::periodic;
   grid.periodic[2] = column.sides == core::Boundary::periodic && column.dimensions == 3;
   Grid block = block_of(grid, ranks);
-  block.metric = metric_of(block, column.shape, column.profile);
+  block.metric = metric_of(block, column.shape, column.profile, walls);
   return block;
 }
 
@@ -104,7 +110,10 @@ Grid whole_column(const Grid& block) {
   column.layers = block.layers;
   column.periodic = block.periodic;
   for (int axis = 0; axis < 3; ++axis) column.cells[std::size_t(axis)] = block.column_cells(axis);
-  if (block.metric) column.metric = metric_of(column, block.metric->shape, block.metric->taper);
+  if (block.cells == column.cells)
+    column.metric = block.metric;
+  else if (block.metric)
+    column.metric = metric_of(column, block.metric->shape, block.metric->taper, block.metric->walls);
   return column;
 }
 

@@ -19,8 +19,11 @@ constexpr int least_block_cells = 4;
 [[nodiscard]] Grid block_of(const Grid& column, const std::shared_ptr<const Ranks>& ranks);
 [[nodiscard]] Grid block_of(const Grid& column, const std::shared_ptr<const Ranks>& ranks, int rank);
 
-/// The grid of the column in a case: this rank's block of it, or the whole column for null.
-[[nodiscard]] Grid grid_of(const Column& column, const std::shared_ptr<const Ranks>& ranks);
+/// The grid of the column in a case, cut by its walls inside if there is a fluid: this rank's block of it, or the whole
+/// column for null. The second form is without walls inside, or with those given.
+[[nodiscard]] Grid grid_of(const Scene& scene, const std::shared_ptr<const Ranks>& ranks);
+[[nodiscard]] Grid grid_of(const Column& column, const std::shared_ptr<const Ranks>& ranks,
+                           const std::shared_ptr<const std::vector<InnerWall>>& walls = nullptr);
 
 /// The grid of the whole column, on one rank.
 [[nodiscard]] Grid whole_column(const Grid& block);

@@ -5,6 +5,7 @@
 
 #include "core/numerics/blocks.hpp"
 #include "core/numerics/cross_sections.hpp"
+#include "core/numerics/inner_walls.hpp"
 
 namespace polybed::core {
 
@@ -68,7 +69,10 @@ class Spreading {
       x += grid_.before[0];
       z += grid_.before[2];
       const bool inside = x >= 0 && x < section.width && z >= 0 && z < section.depth;
-      return inside ? section.wall[section.at(x, z)] * metric_.volume[cell] : 0.0;
+      if (!inside) return 0.0;
+      const std::size_t of = section.at(x, z);
+      return (section.wall[of] + (section.wall_along[a].empty() ? 0 : section.wall_along[a][of])) *
+             metric_.volume[cell];
     };
     metric_.wall[a][at] =
         (wall(at, i, j, k) + wall(low, i - (axis == 0 ? 1 : 0), j - (axis == 1 ? 1 : 0), k - (axis == 2 ? 1 : 0))) /
@@ -79,32 +83,44 @@ class Spreading {
   Metric& metric_;
 };
 
-}  // namespace
-
-namespace {
-
-/// A layer of whole cells.
+/// A layer of a box.
 CrossSection whole_section(const Grid& column) {
   const int nx = column.cells[0], nz = column.cells[2];
-  const auto ones = [](int x, int z) { return std::vector<double>(std::size_t(x) * std::size_t(z), 1.0); };
-  CrossSection section{nx, nz, ones(nx, nz), ones(nx, nz), ones(nx + 1, nz), ones(nx, nz + 1), {}, {}};
-  section.wall.assign(section.volume.size(), 0.0);
-  return section;
+  const std::vector<double> cells(std::size_t(nx * nz), 1.0);
+  return {nx,
+          nz,
+          cells,
+          cells,
+          std::vector<double>(std::size_t((nx + 1) * nz), 1.0),
+          std::vector<double>(std::size_t(column.dimensions == 3 ? nx * (nz + 1) : 0), 1.0),
+          std::vector<double>(cells.size(), 0.0),
+          {},
+          {}};
+}
+
+std::vector<CrossSection> layers_of(const Grid& column, const Metric& metric) {
+  std::vector<CrossSection> layers{whole_section(column)};
+  if (metric.shape != ColumnShape::box) layers = cross_sections(column, metric.around_axis, metric.taper);
+  if (!metric.walls) return layers;
+  if (layers.size() == 1) layers.assign(std::size_t(column.cells[1]) + 1, CrossSection(layers.front()));
+  std::array<double, 3> size{};
+  for (std::size_t a = 0; a < 3; ++a) size[a] = column.cells[a] * column.spacing[a];
+  cut_by_walls(column, InnerWalls(*metric.walls, size, metric.around_axis), metric.around_axis, layers);
+  return layers;
 }
 
 }  // namespace
 
-std::shared_ptr<const Metric> metric_of(const Grid& grid, ColumnShape shape, const Taper& taper) {
-  if (shape == ColumnShape::box && !grid.layers) return nullptr;
+std::shared_ptr<const Metric> metric_of(const Grid& grid, ColumnShape shape, const Taper& taper,
+                                        const InsideWalls& walls) {
+  if (shape == ColumnShape::box && !grid.layers && !walls) return nullptr;
   auto metric = std::make_shared<Metric>();
   const Grid column = whole_column(grid);
   metric->shape = shape;
   metric->around_axis = shape == ColumnShape::axisymmetric;
   metric->taper = taper;
-  if (shape == ColumnShape::box)
-    metric->layers = {whole_section(column)};
-  else
-    metric->layers = cross_sections(column, metric->around_axis, taper);
+  metric->walls = walls;
+  metric->layers = layers_of(column, *metric);
   for (Field* field : {&metric->volume, &metric->per_volume, &metric->per_radius, &metric->per_radius_on,
                        &metric->per_height, &metric->per_distance})
     *field = make_field(grid);

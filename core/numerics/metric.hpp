@@ -1,5 +1,5 @@
-// The open parts of a grid's equal cells: where the wall of a round column cuts them, or where they lie around an axis;
-// and the heights of layers where these are graded.
+// The open parts of a grid's equal cells: where the wall of a round column or walls inside cut them, or where they lie
+// around an axis; and the heights of layers where these are graded.
 //
 // The open volume of a cell is theta V and the open area of a face alpha A, with V and A of a whole cell and face:
 //
@@ -38,6 +38,7 @@ struct CrossSection {
   std::vector<double> open_z;  ///< and along z, depth + 1 rows; empty in two dimensions
   std::vector<double> wall;    ///< for curved walls: area over distance and open volume, 1/m2
   std::vector<double> radius;  ///< of the low faces along x, m; empty unless the cells lie around an axis
+  std::array<std::vector<double>, 3> wall_along{};  ///< as wall, of walls inside, for each velocity; empty without
 
   [[nodiscard]] double& volume_of(int i, int k) { return volume[at(i, k)]; }
   [[nodiscard]] double& x_face(int i, int k) { return open_x[std::size_t(i + (width + 1) * k)]; }
@@ -45,9 +46,14 @@ struct CrossSection {
   [[nodiscard]] std::size_t at(int i, int k) const { return std::size_t(i) + std::size_t(width) * std::size_t(k); }
 };
 
+struct InnerWall;
+/// Walls inside a column; null without.
+using InsideWalls = std::shared_ptr<const std::vector<InnerWall>>;
+
 struct Metric {
+  ColumnShape shape = ColumnShape::box;
+  InsideWalls walls;
   std::vector<CrossSection> layers;  ///< from the bottom; one entry: all alike; else one more for the top
-  ColumnShape shape = ColumnShape::cylinder;
   Taper taper;
   Field volume;                              ///< theta
   Field per_volume;                          ///< 1/theta; 0 where closed
@@ -75,8 +81,10 @@ struct Metric {
   }
 };
 
-/// Metric of a block or of the whole column, from the shape of its column; null for a box of even layers.
-[[nodiscard]] std::shared_ptr<const Metric> metric_of(const Grid& grid, ColumnShape shape, const Taper& taper = {});
+/// Metric of a block or of the whole column, from the shape of its column; null for a box of even layers without walls
+/// inside.
+[[nodiscard]] std::shared_ptr<const Metric> metric_of(const Grid& grid, ColumnShape shape, const Taper& taper = {},
+                                                      const InsideWalls& walls = nullptr);
 
 /// Equal cells: the compiler removes it from a kernel.
 struct UniformMetric {
@@ -89,7 +97,7 @@ struct UniformMetric {
   static constexpr double per_distance(std::size_t, Index) { return 1; }
 };
 
-/// Metric of a round or graded column.
+/// Metric of a round or graded column, or of one with walls inside.
 class GeneralMetric {
  public:
   static constexpr bool radial = true;  ///< there can be an axis; in a cylinder its terms are 0

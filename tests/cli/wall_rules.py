@@ -15,8 +15,8 @@ TAPERED = tapered((0, 0.06), (0.1, 0.12), (0.2, 0.12))
 GRADED = "column.grading=1.1"
 
 
-def wall(start, end, shape="flat"):
-    return f'wall=[{{from={start}, to={end}, shape="{shape}"}}]'
+def wall(start, end, shape="flat", thickness=0):
+    return f'wall=[{{from={start}, to={end}, shape="{shape}", thickness={thickness}}}]'
 
 
 WALLS = {
@@ -53,10 +53,14 @@ WALLS = {
     '[[wall]] number {} is flat beside round walls: use shape = "cone" or "cylinder" for all of them, or column.shape = "box" and flat ones': [
         *ROUND, wall([0, 0.05], [0.02, 0.01])],
     **{f"[[wall]]: {told}": [wall([0, 0.05], [0.02, 0.01]), *words] for told, words in (
-        ('a fluid would pass through it; set fluid.name = "none"', []),
+        ('bed.start = "layered" cannot be combined with it in a fluid; use "mixed"', ["bed.start=layered"]),
         ('column.sides = "periodic" would end it at the side; use "wall"', ["column.sides=periodic"]),
         ('column.ends = "periodic" would end it at the bottom; use "wall"', ["column.ends=periodic"]),
         ('bed.start = "random" would place particles on both sides of it; use "mixed"', ["bed.start=random"]))},
+    '[[wall]] number {} is {} m thick, in the fluid it needs {} m or more on these cells, a rod twice as much as a cell: give wall.thickness, '
+    'take smaller cells, or set fluid.name = "none"': [wall([0.02, 0.1], [0.06, 0.1], thickness=0.005)],
+    "[[wall]] number {} begins {} m above the bottom, through which the fluid enters: at least one cell, {} m": [
+        wall([0.02, 0.01], [0.06, 0.01], thickness=0.01)],
     "[[wall]]: a cone or cylinder needs three dimensions; give column.size three numbers": [wall([0.02, 0.01], [0.04, 0.05], "cone")],
 }
 
@@ -66,6 +70,10 @@ ROUND_OF_MODELS = {
         *ROUND, "column.cells=[8,8,20]", "jet=[{from=[0.0064, 0.0130], to=[0.0074, 0.0149], superficial_velocity=0.1}]"],
     'column.shape = "{}" and tfm.solids_wall = "{}" cannot be combined yet: the solids slip freely along round walls': [
         AROUND, "tfm.solids_wall=johnson_jackson"],
+    '[[wall]] and tfm.solids_wall = "{}" cannot be combined yet: the solids slip freely along walls inside': [
+        wall([0.02, 0.1], [0.06, 0.1], thickness=0.02), "tfm.solids_wall=no_slip"],
+    '[[wall]] in a fluid and dem.own_share = "removed" cannot be combined yet; use dem.own_share = "kept"': [
+        wall([0.02, 0.1], [0.06, 0.1], thickness=0.02), "dem.own_share=removed"],
     'column.shape = "cylinder" and dem.own_share = "removed" cannot be combined yet; use dem.own_share = "kept"': [
         *ROUND, "dem.own_share=removed"],
     'column.grading and dem.own_share = "removed" cannot be combined yet; use dem.own_share = "kept"': [

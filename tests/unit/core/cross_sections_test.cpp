@@ -158,7 +158,7 @@ TEST(TaperedColumn, KeepsWhatItContains) {
   for (const bool rings : {true, false}) {
     Grid grid = grid_of_taper(16, 30, rings, 0.3);
     grid.metric = metric_of(grid, rings ? ColumnShape::axisymmetric : ColumnShape::cylinder, uneven);
-    test::expect_conserving(grid);
+    checks::expect_conserving(grid);
   }
 }
 
@@ -171,7 +171,7 @@ TEST(TaperedColumn, IsTheSameInBlocks) {
   part.before[1] = 6;
   part.after[1] = 7;
   const auto block = metric_of(part, ColumnShape::axisymmetric, uneven);
-  test::expect_part_of(grid, *whole, part, *block);
+  checks::expect_part_of(grid, *whole, part, *block);
 }
 
 }  // namespace

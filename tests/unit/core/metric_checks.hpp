@@ -9,7 +9,7 @@
 #include "core/numerics/metric.hpp"
 #include "core/numerics/operators.hpp"
 
-namespace polybed::core::test {
+namespace polybed::core::checks {
 
 /// The divergence of any flux sums to 0 over the column, to round-off: what leaves one cell enters the next, and
 /// nothing passes the wall.
@@ -50,4 +50,4 @@ inline void expect_part_of(const Grid& grid, const Metric& whole, const Grid& pa
       }
 }
 
-}  // namespace polybed::core::test
+}  // namespace polybed::core::checks

@@ -121,7 +121,7 @@ TEST(RoundColumn, ResistsAPipesFlowBetterThanInOrderOneAndAHalf) {
 TEST(RoundColumn, KeepsWhatItContains) {
   Grid grid = grid_across(9, 3);
   grid.metric = metric_of(grid, ColumnShape::cylinder);
-  test::expect_conserving(grid);
+  checks::expect_conserving(grid);
 }
 
 // (1/r) d(r u)/dr of u = r is 2, in every ring.
@@ -148,7 +148,7 @@ TEST(RoundColumn, IsTheSameInBlocks) {
   part.before[0] = 4;
   part.after[0] = 3;
   const auto block = metric_of(part, ColumnShape::cylinder);
-  test::expect_part_of(grid, *whole, part, *block);
+  checks::expect_part_of(grid, *whole, part, *block);
 }
 
 // 10 m in 10 layers, graded above 4 m by at most 1.2: 6 m are left. 1.2 + 1.44 + 1.728 = 4.368 m are too little, with

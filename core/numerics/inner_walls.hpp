@@ -1,0 +1,49 @@
+// Walls of finite thickness inside a column: how far a point is from them, and the open shares that they leave.
+//
+// A wall consists of all points within half its thickness of its middle surface, so that its edges are rounded. The DEM
+// lets particles touch the same surface.
+#pragma once
+
+#include <span>
+
+#include "core/case/scene.hpp"
+#include "core/numerics/metric.hpp"
+
+namespace polybed::core {
+
+/// A place's distance from the nearest wall, m, below 0 inside it, and the direction away from that wall.
+struct FromWall {
+  double distance;
+  std::array<double, 3> away;
+};
+
+class InnerWalls {
+ public:
+  /// Ignores walls without thickness, which are for particles alone.
+  /// \param size  of the column, m  \param rings  x is the distance from the axis
+  InnerWalls(std::span<const InnerWall> walls, const std::array<double, 3>& size, bool rings);
+
+  [[nodiscard]] bool empty() const { return parts_.empty(); }
+  [[nodiscard]] FromWall nearest(const std::array<double, 3>& place) const;
+
+ private:
+  /// The profile of a wall in its plane: x and y, or distance from the axis and y.
+  struct Part {
+    double x, y, along_x, along_y, per_square, half;
+    bool round;
+  };
+  std::vector<Part> parts_;
+  double axis_x_, axis_z_;
+  bool rings_;
+};
+
+/// Share of a box of widths w that lies where distance + along . (x - centre) > 0, for a unit vector `along`.
+[[nodiscard]] double share_beyond(double distance, const std::array<double, 3>& along, const std::array<double, 3>& w);
+
+/// Cuts the layers of a column: open volumes of cells and open areas of faces. A cell that is less than half open gives
+/// its volume to the neighbour across its largest face, and its other faces to that neighbour's. Closes all cells that
+/// cannot be reached from the largest connected part. Throws StartError if that part does not reach both ends.
+/// \param layers  as of cross_sections(), one entry a layer and one for the top  \param column  all of it
+void cut_by_walls(const Grid& column, const InnerWalls& walls, bool rings, std::vector<CrossSection>& layers);
+
+}  // namespace polybed::core
