@@ -10,7 +10,7 @@ constexpr int bands_of_cone = 16;
 
 /// Whether a point lies on a plate, to rounding.
 bool lies_on(const Plate& plate, const InPlane& point) {
-  const InPlane away = plate.to(point);
+  const InPlane away = plate.from_middle(point);
   return plate.per_square * (away[0] * away[0] + away[1] * away[1]) < 1e-18;
 }
 
@@ -18,13 +18,14 @@ bool lies_on(const Plate& plate, const InPlane& point) {
 
 /// Curvatures alternate between inside and outside, band by band from the first edge.
 int Plate::curve_at(const Vector& centre) const {
+  if (!round && half > 0) return nearest(in_plane(centre)) == Part::face ? 0 : 1 + first_curve;
   if (curve_bands == 0) return 0;
   const InPlane point = in_plane(centre);
   const double at = share(point);
   if (!(at >= 0 && at <= 1)) return 0;
   const double through = at * (x + along_x) / (x + at * along_x);  // share of the change in curvature, as 1/rho changes
   const int band = std::min(int(through * curve_bands), curve_bands - 1);
-  return 1 + first_curve + 2 * band + (to(point)[0] > 0 ? 1 : 0);
+  return 1 + first_curve + 2 * band + (from_middle(point)[0] > 0 ? 1 : 0);
 }
 
 Vector Box::wrapped(Vector x) const {
@@ -46,6 +47,7 @@ bool Box::within_side(const Place& sphere) const {
 int Box::joined(const Plate& plate) {
   const auto join = [this](int a, int b) {
     const Plate &one = plates[std::size_t(a)], &other = plates[std::size_t(b)];
+    if (one.half != other.half) return;  // the thicker one stands out beside the other
     const InPlane first{one.x, one.y}, second{one.x + one.along_x, one.y + one.along_y};
     if (lies_on(other, first)) joints.push_back({a, Plate::Part::first_edge, b, other.nearest(first)});
     if (lies_on(other, second)) joints.push_back({a, Plate::Part::second_edge, b, other.nearest(second)});
@@ -67,16 +69,30 @@ Plate Box::about_axis(const InPlane& from, const InPlane& to) const {
   return plate;
 }
 
-/// A cone of half angle a curves with the radius rho/cos(a) about its normal at a distance rho from its axis.
-void Box::add_cone(const InPlane& from, const InPlane& to) {
+/// The edges of a thick plate curve with half its thickness.
+void Box::add_plate(Plate plate, double thickness) {
+  plate.half = 0.5 * thickness;
+  plate.first_curve = int(curvatures.size());
+  if (thickness > 0) curvatures.push_back(-1 / plate.half);
+  walls.push_back({0, 0, 0, joined(plate)});
+}
+
+/// A cone of half angle a curves with the radius rho/cos(a) about its normal at a distance rho from its axis; its
+/// surfaces with half its thickness less or more. The inside of a solid one has no contacts.
+void Box::add_cone(const InPlane& from, const InPlane& to, double thickness) {
   Plate plate = about_axis(from, to);
+  plate.half = 0.5 * thickness;
   const double cosine = std::abs(plate.along_y) * std::sqrt(plate.per_square);
   plate.first_curve = int(curvatures.size());
   plate.curve_bands = cosine == 0 ? 0 : (plate.along_x == 0 ? 1 : bands_of_cone);
   for (int band = 0; band < plate.curve_bands; ++band) {
     const double through = (band + 0.5) / plate.curve_bands;
     const double curvature = cosine * ((1 - through) / from[0] + through / to[0]);
-    curvatures.insert(curvatures.end(), {curvature, -curvature});
+    const double radius = 1 / curvature, inside = radius - plate.half;
+    if (thickness == 0)
+      curvatures.insert(curvatures.end(), {curvature, -curvature});
+    else
+      curvatures.insert(curvatures.end(), {inside > 0 ? 1 / inside : 0, -1 / (radius + plate.half)});
   }
   walls.push_back({0, 0, 0, joined(plate)});
 }
@@ -141,7 +157,7 @@ bool Box::rim_is_edge(int axis, const Vector& centre, const Vector& from_rim) co
   }
   const double near = 1e-9 * size[1];
   return !straight && std::any_of(plates.begin(), plates.end(), [&](const Plate& plate) {
-    const InPlane away = plate.to(InPlane{point[0], point[1]});
+    const InPlane away = plate.from_middle({point[0], point[1]});
     return !plate.round && std::hypot(away[0], away[1]) < near &&
            (axis == 2 || plate.nearest({point[0], point[1]}) != Plate::Part::face);
   });

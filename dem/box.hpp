@@ -40,20 +40,26 @@ struct Opening {
 /// A point in the plane of a plate's profile, m: x and y, or distance from the axis and y.
 using InPlane = std::array<double, 2>;
 
-/// A wall inside the box without thickness, which particles meet from both sides and from its edges. It has a straight
-/// profile in a plane: flat plates lie along z from end to end; round ones are cones about an upright axis.
+/// A wall inside the box, which particles meet from both sides and from its edges. Its middle has a straight profile in
+/// a plane: flat plates lie along z from end to end; round ones are cones about an upright axis. Its surface lies half
+/// its thickness from the middle, so that edges are rounded; a rod is a flat plate of no width.
 struct Plate {
   double x = 0, y = 0;              ///< of one edge, in its plane, m
   double along_x = 1, along_y = 0;  ///< to the other edge, m
-  double per_square = 1;            ///< 1 over the square of their distance, 1/m2
+  double per_square = 1;            ///< 1 over the square of their distance, 1/m2; 0 for a rod
+  double half = 0;                  ///< of its thickness, m
 
   bool round = false;
   double axis_x = 0, axis_z = 0;         ///< for a round one, m
-  int first_curve = 0, curve_bands = 0;  ///< for a round one: place of its curvatures in the box's list
+  int first_curve = 0, curve_bands = 0;  ///< place of its curvatures in the box's list; bands of a round one
 
   Plate() = default;
   Plate(double x0, double y0, double x1, double y1)
-      : x(x0), y(y0), along_x(x1 - x0), along_y(y1 - y0), per_square(1 / (along_x * along_x + along_y * along_y)) {}
+      : x(x0),
+        y(y0),
+        along_x(x1 - x0),
+        along_y(y1 - y0),
+        per_square(along_x == 0 && along_y == 0 ? 0 : 1 / (along_x * along_x + along_y * along_y)) {}
 
   [[nodiscard]] InPlane in_plane(const Vector& centre) const {
     if (!round) return {centre[0], centre[1]};
@@ -64,12 +70,19 @@ struct Plate {
   [[nodiscard]] double share(const InPlane& point) const {
     return ((point[0] - x) * along_x + (point[1] - y) * along_y) * per_square;
   }
-  /// Vector to a point from the nearest point on the plate, m.
-  [[nodiscard]] InPlane to(const InPlane& point) const {
+  /// Vector to a point from the nearest point on the middle of the plate, m.
+  [[nodiscard]] InPlane from_middle(const InPlane& point) const {
     const double within = std::clamp(share(point), 0.0, 1.0);
     return {point[0] - x - within * along_x, point[1] - y - within * along_y};
   }
-  /// Vector to a centre from the nearest point on the plate, m. On the axis of a round one, along x.
+  /// The same from its surface, for a point outside.
+  [[nodiscard]] InPlane to(const InPlane& point) const {
+    const InPlane away = from_middle(point);
+    if (half == 0) return away;
+    const double beyond = 1 - half / std::sqrt(away[0] * away[0] + away[1] * away[1]);
+    return {beyond * away[0], beyond * away[1]};
+  }
+  /// Vector to a centre from the nearest point on the surface of the plate, m. On the axis of a round one, along x.
   [[nodiscard]] Vector to(const Vector& centre) const {
     const InPlane point = in_plane(centre), away = to(point);
     if (!round || point[0] == 0) return {away[0], away[1], 0};
@@ -84,7 +97,7 @@ struct Plate {
     const double at = share(point);
     return at < width ? Part::first_edge : (at > 1 - width ? Part::second_edge : Part::face);
   }
-  /// Number of the curvature at a sphere's contact, from 1; 0: the plate is flat there, or ends.
+  /// Number of the curvature at a sphere's contact, from 1; 0: the plate is flat there, or a round one ends.
   [[nodiscard]] int curve_at(const Vector& centre) const;
 };
 
@@ -137,9 +150,9 @@ struct Box {
   /// Whether a sphere lies wholly within the side of a round box; always true for another box.
   [[nodiscard]] bool within_side(const Place& sphere) const;
   /// Adds a flat plate and the corresponding wall.
-  void add_plate(const Plate& plate) { walls.push_back({0, 0, 0, joined(plate)}); }
+  void add_plate(Plate plate, double thickness = 0);
   /// The same for a cone about the axis of the box: half its diameter and height at both ends, m.
-  void add_cone(const InPlane& from, const InPlane& to);
+  void add_cone(const InPlane& from, const InPlane& to, double thickness = 0);
   /// Replaces the bottom by a plate with the opening in it, so that round plates ending on it push once with it.
   void make_bottom_a_plate();
   /// Whether a plate pushes a centre near it. It does not push with an edge if the centre is nearer to the face of the

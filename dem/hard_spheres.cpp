@@ -47,6 +47,10 @@ double Region::distance_from_axis(const Vector& x) const {
 }
 
 void Region::move_within_side(Vector& x) const {
+  if (walls)
+    if (const core::FromWall wall = walls->nearest(x); wall.distance < of_sphere)
+      for (std::size_t k = 0; k < 3; ++k) x[k] += (of_sphere - wall.distance) * wall.away[k];
+  if (!round) return;
   if (side) return side.move_inside(x, of_sphere, low[1], high[1]);
   const auto [dx, dz] = from_axis(x);
   const double away = distance_from_axis(x), beyond = away - radius();

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/numerics/inner_walls.hpp"
 #include "dem/box.hpp"
 #include "dem/contacts/materials.hpp"
 #include "dem/contacts/neighbours.hpp"
@@ -19,14 +20,16 @@ struct Region {
   Vector low, high;
   bool round = false;    ///< within the upright cylinder between these corners; it is as wide as deep
   TaperedSide side{};    ///< instead of that cylinder
-  double of_sphere = 0;  ///< radius of a sphere that fits the tapered side: for bounds of a centre, m
+  double of_sphere = 0;  ///< radius of a sphere that fits the tapered side and the walls: for bounds of a centre, m
+  std::shared_ptr<const core::InnerWalls> walls{};  ///< walls inside that spheres lie between; null: none
 
   [[nodiscard]] double volume() const;
-  /// Whether a place between the corners lies within the side of a round region.
+  /// Whether a place between the corners lies within the side of a round region and between walls inside.
   [[nodiscard]] bool within_side(const Vector& x) const {
+    if (walls && walls->nearest(x).distance < of_sphere) return false;
     return !round || distance_from_axis(x) <= (side ? side.reach(x[1], of_sphere) : radius());
   }
-  /// Moves a place outside the side of a round region onto it.
+  /// Moves a place outside the side of a round region onto it, and one in a wall inside out of it.
   void move_within_side(Vector& x) const;
   /// The box in which places are drawn before they are mapped into a round region; its height follows from the volume.
   [[nodiscard]] Region even() const;

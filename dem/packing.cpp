@@ -51,11 +51,37 @@ struct Group {
   Region region;
 };
 
-/// Height above which the particles are placed, m: the top of the inner walls.
+/// Height above which the particles are placed, m: the top of the inner walls, between which they lie in a fluid.
 double floor_of(const core::Scene& scene) {
   double top = 0;
-  for (const core::InnerWall& wall : scene.walls) top = std::max({top, wall.from[1], wall.to[1]});
+  for (const core::InnerWall& wall : scene.walls)
+    if (!scene.fluid.present())
+      top = std::max({top, wall.from[1] + 0.5 * wall.thickness, wall.to[1] + 0.5 * wall.thickness});
   return top;
+}
+
+/// Raises a height so that the room between the walls below it is what the room of the column was. Measured on points
+/// a hundredth of the column apart.
+double raised_between(const core::InnerWalls& walls, const core::Column& column, double height) {
+  constexpr int points = 100;
+  const auto n = [&](std::size_t a) { return column.dimensions == 2 && a == 2 ? 1 : points; };
+  const auto place = [&](std::size_t a, int i) { return (i + 0.5) * column.size[a] / n(a); };
+  const double step = column.size[1] / n(1);
+  double room = 0, top = 0;
+  for (int j = 0; j < n(1) && room < height; ++j) {
+    int open = 0, all = 0;
+    for (int k = 0; k < n(2); ++k)
+      for (int i = 0; i < n(0); ++i) {
+        const double x = place(0, i) - 0.5 * column.size[0], z = place(2, k) - 0.5 * column.size[2];
+        if (column.is_round() && std::hypot(x, z) > 0.5 * column.size[0]) continue;
+        ++all;
+        open += walls.nearest({place(0, i), place(1, j), place(2, k)}).distance > 0 ? 1 : 0;
+      }
+    const double here = step * open / all, share = here > 0 ? std::min(1.0, (height - room) / here) : 1;
+    room += here;
+    top = (j + share) * step;
+  }
+  return room < height ? top + height - room : top;
 }
 
 /// Numbers of each species in a part of the bed.
@@ -100,6 +126,11 @@ std::vector<Group> groups_of(const core::Scene& scene, const Materials& material
   std::vector<core::Extent> extents = core::stacked(parts, height);
   for (core::Extent& one : extents)
     one = {column.filled_height(below + one.low), column.filled_height(below + one.high)};
+  std::shared_ptr<const core::InnerWalls> walls;
+  if (scene.fluid.present() && !scene.walls.empty()) {
+    walls = std::make_shared<core::InnerWalls>(scene.walls, column.size, false);
+    for (core::Extent& one : extents) one.high = raised_between(*walls, column, one.high);
+  }
   // Particles from a checkpoint can be anywhere in the box and replace these.
   if (scene.bed.start.kind == core::StartKind::random || scene.bed.start.kind == core::StartKind::checkpoint)
     extents.assign(parts.size(), {floor, box.size[1]});
@@ -108,7 +139,9 @@ std::vector<Group> groups_of(const core::Scene& scene, const Materials& material
     groups[n].region = {{part.from[0] * box.size[0], extents[n].low, part.from[1] * box.size[2]},
                         {part.to[0] * box.size[0], extents[n].high, part.to[1] * box.size[2]},
                         box.round,
-                        box.side};
+                        box.side,
+                        0,
+                        walls};
   }
   return groups;
 }

@@ -66,7 +66,7 @@ void push_all(HardSpheres& spheres, const std::vector<Push>& pushes) {
   POLYBED_INDEPENDENT
   for (std::size_t i = 0; i < place.size(); ++i)
     for (std::size_t k = 0; k < 3; ++k) place[i].x[k] = std::clamp(place[i].x[k], bounds[i].low[k], bounds[i].high[k]);
-  if (bounds.empty() || !bounds.front().round) return;
+  if (bounds.empty() || !(bounds.front().round || bounds.front().walls)) return;
   for (std::size_t i = 0; i < place.size(); ++i) bounds[i].move_within_side(place[i].x);
 }
 

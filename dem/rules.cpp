@@ -65,6 +65,12 @@ std::vector<core::Rule> key_rules() {
        "column.grading and dem.own_share = \"removed\" cannot be combined yet; use dem.own_share = \"kept\"",
        [](const core::Scene& scene) {
          return core::broken_if(scene.column.grading && scene.dem.own_share == core::OwnShare::removed);
+       }},
+      {{"wall.shape", "fluid.name", "dem.own_share"},
+       "[[wall]] in a fluid and dem.own_share = \"removed\" cannot be combined yet; use dem.own_share = \"kept\"",
+       [](const core::Scene& scene) {
+         return core::broken_if(!scene.walls.empty() && scene.fluid.present() &&
+                                scene.dem.own_share == core::OwnShare::removed);
        }}};
   return relevance::joined({rules_of_keys(), own, feed_rules()});
 }

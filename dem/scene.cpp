@@ -53,9 +53,9 @@ void add_plates(const core::Scene& scene, Box& box) {
   for (const core::InnerWall& wall : scene.walls) {
     round = round || wall.is_round();
     if (wall.is_round())
-      box.add_cone(end_of(wall.from), end_of(wall.to));
+      box.add_cone(end_of(wall.from), end_of(wall.to), wall.thickness);
     else
-      box.add_plate({wall.from[0], wall.from[1], wall.to[0], wall.to[1]});
+      box.add_plate({wall.from[0], wall.from[1], wall.to[0], wall.to[1]}, wall.thickness);
   }
   for (const core::InnerWall& wall : core::walls_of_taper(scene.column)) {
     round = true;

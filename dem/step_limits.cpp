@@ -55,7 +55,7 @@ void add_viscosity(const core::Scene& scene, std::vector<StepLimit>& all) {
   if (!scene.fluid.present() || scene.column.shear_rate != 0 || !core::acts(scene, "fluid_stress")) return;
   constexpr double courant = 0.5;
   const relevance::FluidConstants fluid = relevance::fluid_constants(scene.fluid);
-  const double rate = 2 * fluid.viscosity / fluid.density * fluid::viscous_rate(core::grid_of(scene.column, nullptr));
+  const double rate = 2 * fluid.viscosity / fluid.density * fluid::viscous_rate(core::grid_of(scene, nullptr));
   all.push_back({"viscosity of the fluid", courant / rate});
 }
 

@@ -35,7 +35,7 @@ int every_of(const core::Scene& scene) { return scene.dem.fluid_every.value_or(c
 
 /// Full width of the kernel, m.
 double width_of(const core::Scene& scene, const Materials& materials, std::int64_t count) {
-  const double cell = core::grid_of(scene.column, nullptr).smallest_spacing();
+  const double cell = core::grid_of(scene, nullptr).smallest_spacing();
   return kernel_of(scene, cell, materials.greatest_diameter(), count).width;
 }
 
@@ -65,7 +65,7 @@ bool shares_fluid(const core::Scene& scene, const Materials& materials, std::int
         "dem.fluid_ranks = \"shared\" does not go with a kernel of diffusion, which needs the whole column: use "
         "\"each\", or cells of at least 1.5 diameters with dem.kernel = \"bilinear\"")});
   if (wide || wish == core::FluidRanks::each) return false;
-  return wish == core::FluidRanks::shared || core::grid_of(scene.column, nullptr).cell_count() >= worth_sharing;
+  return wish == core::FluidRanks::shared || core::grid_of(scene, nullptr).cell_count() >= worth_sharing;
 }
 
 /// Changes in a step of the fluid, on faces.
@@ -101,8 +101,7 @@ Coupling::Coupling(const core::Scene& scene, const Materials& materials, std::sh
                    core::Timers& timers, Units units, double dt, double speed, double volume, std::int64_t count)
     : ranks_(ranks),
       timers_(timers),
-      flow_(scene, core::grid_of(scene.column, shares_fluid(scene, materials, count) ? ranks : nullptr),
-            pressure_tolerance),
+      flow_(scene, core::grid_of(scene, shares_fluid(scene, materials, count) ? ranks : nullptr), pressure_tolerance),
       fraction_(materials.species().size(), core::make_field(flow_.grid())),
       at_ends_(core::make_field(flow_.grid())),
       width_(width_of(scene, materials, count)),

@@ -49,6 +49,11 @@ EntryWeights::EntryWeights(const core::Grid& grid, int of)
       alike_(!grid.metric->tapered()),
       lift_(grid.stride(1)),
       radius_(0.5 * grid.cells[0] * grid.spacing[0]) {
+  if (grid.metric->walls) {
+    std::array<double, 3> size{};
+    for (std::size_t a = 0; a < 3; ++a) size[a] = grid.cells[a] * grid.spacing[a];
+    walls_ = std::make_shared<core::InnerWalls>(*grid.metric->walls, size, false);
+  }
   for (int a = 0; a < 3; ++a) {
     count_[std::size_t(a)] = grid.cells[std::size_t(a)] + (of == a ? 1 : 0);
     per_spacing_[std::size_t(a)] = 1 / grid.spacing[std::size_t(a)];
@@ -74,6 +79,7 @@ double EntryWeights::distance(int i, int k) const {
 /// in the nearest ring with open entries the one nearest to the axis, so that mirror images go to mirror images.
 std::size_t EntryWeights::taker(const std::vector<double>& volume, int i, int layer, int k) const {
   const auto of = [&](int x, int j, int z) { return entry(std::size_t(x), std::size_t(j), std::size_t(z)); };
+  if (walls_) return taker_between_walls(volume, i, layer, k);
   for (const int j : {layer, layer + 1, layer - 1})
     if (j >= 0 && j < int(layers()) && volume[of(i, j, k)] > 0) return of(i, j, k);
   std::size_t found = of(i, layer, k);
@@ -91,27 +97,76 @@ std::size_t EntryWeights::taker(const std::vector<double>& volume, int i, int la
   return found;
 }
 
+/// The open entry nearest to an entry, or to the point of the wall's surface nearest to it.
+std::size_t EntryWeights::taker_between_walls(const std::vector<double>& volume, int i, int j, int k) const {
+  const std::size_t own = entry(std::size_t(i), std::size_t(j), std::size_t(k));
+  if (volume[own] > 0) return own;
+  const std::array<int, 3> cell{i, j, k};
+  Vector place{};
+  for (std::size_t a = 0; a < 3; ++a) place[a] = (cell[a] + offset_[a]) / per_spacing_[a];
+  const core::FromWall wall = walls_->nearest(place);
+  for (std::size_t a = 0; a < 3; ++a) place[a] -= std::min(wall.distance, 0.0) * wall.away[a];
+  constexpr int far = 4;  // deeper in a wall there are no particles
+  std::size_t found = own;
+  double least = std::numeric_limits<double>::infinity();
+  const auto low = [&](std::size_t a) { return std::max(int(std::floor(place[a] * per_spacing_[a])) - far, 0); };
+  const auto end = [&](std::size_t a) { return std::min(low(a) + 2 * far + 1, count_[a]); };
+  for (int y = low(1); y < end(1); ++y)
+    for (int z = low(2); z < end(2); ++z)
+      for (int x = low(0); x < end(0); ++x) {
+        const std::size_t n = entry(std::size_t(x), std::size_t(y), std::size_t(z));
+        if (!(volume[n] > 0)) continue;
+        const std::array<int, 3> there{x, y, z};
+        double away = 0;
+        for (std::size_t a = 0; a < 3; ++a)
+          away = std::hypot(away, (there[a] + offset_[a]) / per_spacing_[a] - place[a]);
+        if (away >= least) continue;
+        least = away;
+        found = n;
+      }
+  return found;
+}
+
+/// Whether the weight of an entry is fitted: near a wall inside.
+bool EntryWeights::near_wall(std::size_t n) const {
+  const auto row = std::size_t(count_[0]), layer = row * std::size_t(count_[2]);
+  const std::array<std::size_t, 3> cell{n % row, n / layer, n % layer / row};
+  Vector place{};
+  for (std::size_t a = 0; a < 3; ++a) place[a] = (double(cell[a]) + offset_[a]) / per_spacing_[a];
+  return walls_->nearest(place).distance <
+         cells_to_fit / *std::min_element(per_spacing_.begin(), per_spacing_.begin() + 2);
+}
+
 /// The mirror image of an entry that lies in the quarter of low x and z.
 std::size_t EntryWeights::in_quarter(std::size_t n) const {
+  if (walls_) return n;
   const auto row = std::size_t(count_[0]), layer = row * std::size_t(count_[2]);
   const std::size_t i = n % row, k = n % layer / row;
   return entry(std::min(i, row - 1 - i), n / layer, std::min(k, std::size_t(count_[2]) - 1 - k));
 }
 
-/// Calls body(around, share of a cell's volume) for evenly spaced places in a quarter of the column that touch entries
-/// with fitted weights.
+/// Calls body(around, share of a cell's volume) for evenly spaced places that touch entries with fitted weights: in a
+/// quarter of a round column, or anywhere between walls inside.
 template <class Body>
 void EntryWeights::for_each_place(const core::Grid& grid, Body&& body) const {
   const double hx = grid.spacing[0], hz = grid.spacing[2];
+  const double far = (cells_to_fit + 2) * std::max({hx, grid.spacing[1], grid.dimensions == 3 ? hz : 0});
   const auto layer = [&](int j, std::span<const int> all) {
     const auto heights = double(all.size());
     for (std::size_t m = 0; m < all.size(); ++m) {
       const int n = all[m];
       const double y = (j + (double(m) + 0.5) / heights) * grid.spacing[1], radius = radius_of(grid, y);
       const double inner = alike_ ? radius - (cells_to_fit + 2) * std::max(hx, hz) : 0;
-      for (int k = 0; 2 * k < n * grid.cells[2]; ++k)
-        for (int i = 0; 2 * i < n * grid.cells[0]; ++i) {
-          const double x = (i + 0.5) * hx / n, z = (k + 0.5) * hz / n, away = std::hypot(x - radius_, z - radius_);
+      const int part = walls_ ? 1 : 2, nz = grid.dimensions == 2 ? 1 : n;
+      for (int k = 0; part * k < nz * grid.cells[2]; ++k)
+        for (int i = 0; part * i < n * grid.cells[0]; ++i) {
+          const double x = (i + 0.5) * hx / n, z = (k + 0.5) * hz / nz, away = std::hypot(x - radius_, z - radius_);
+          if (walls_) {
+            const double distance = walls_->nearest({x, y, z}).distance;
+            const bool inside = grid.metric->shape == core::ColumnShape::box || away <= radius;
+            if (distance > 0 && distance < far && inside) body(find({x, y, z}), 1 / (heights * n * nz));
+            continue;
+          }
           if (away >= inner && away <= radius) body(find({x, y, z}), 1 / (heights * n * n));
         }
     }
@@ -130,11 +185,13 @@ void EntryWeights::fit(const core::Grid& grid, const std::vector<double>& volume
   for (std::size_t e = 0; e < volume.size(); ++e) {
     image[e] = in_quarter(entries_[e].taker);
     weight[e] = volume[in_quarter(e)];
-    whole[in_quarter(e)] += 0.25 * weight[e];
+    whole[in_quarter(e)] += (walls_ ? 1 : 0.25) * weight[e];
   }
   std::vector<bool> fitted;
   for (std::size_t e = 0; e < volume.size(); ++e)
-    fitted.push_back(distance(int(e % std::size_t(count_[0])), int(e / std::size_t(count_[0])) % count_[2]) > inner);
+    fitted.push_back(walls_ ? near_wall(e)
+                            : distance(int(e % std::size_t(count_[0])), int(e / std::size_t(count_[0])) % count_[2]) >
+                                  inner);
   for (int round = 0; round < rounds; ++round) {
     std::fill(filled.begin(), filled.end(), 0.0);
     for_each_place(grid, [&](const Around& around, double part) {

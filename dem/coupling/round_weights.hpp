@@ -1,4 +1,4 @@
-// The shares of a particle in a round column in the surrounding cells and faces.
+// The shares of a particle in the surrounding cells and faces, in a round column or between walls inside.
 //
 //   share of entry e = w_e g_e / sum(w g)
 //
@@ -7,12 +7,14 @@
 // half, and the cells next to them a seventh too much. V of a face is the volume of its momentum. Faces of open cells
 // that the wall closes have their share, and keep it at rest, as faces on the walls of a box do.
 //
-// If the diameter is constant, all layers are alike and have one g.
+// If the diameter is constant, all layers are alike and have one g. A round column has it for a quarter and its mirror
+// images; walls inside are anywhere.
 #pragma once
 
 #include <memory>
 #include <vector>
 
+#include "core/numerics/inner_walls.hpp"
 #include "dem/coupling/weights.hpp"
 
 namespace polybed::dem {
@@ -81,7 +83,9 @@ class EntryWeights {
   }
   [[nodiscard]] std::size_t layers() const { return alike_ ? 1 : std::size_t(count_[1]); }
   [[nodiscard]] double distance(int i, int k) const;
+  [[nodiscard]] bool near_wall(std::size_t entry) const;
   [[nodiscard]] std::size_t taker(const std::vector<double>& volume, int i, int layer, int k) const;
+  [[nodiscard]] std::size_t taker_between_walls(const std::vector<double>& volume, int i, int j, int k) const;
   [[nodiscard]] std::size_t in_quarter(std::size_t entry) const;
   template <class Body>
   void for_each_place(const core::Grid& grid, Body&& body) const;
@@ -93,6 +97,7 @@ class EntryWeights {
   bool alike_;                                      ///< all layers are cut alike
   core::Index lift_;                                ///< from a layer to the next in a field
   double radius_;                                   ///< of the column where it is widest, m
+  std::shared_ptr<const core::InnerWalls> walls_;   ///< null: none
   std::vector<Entry> entries_;
 };
 
@@ -104,7 +109,7 @@ struct RoundShares {
 
 class RoundWeights {
  public:
-  /// \param grid  of the whole column, which is round
+  /// \param grid  of the whole column, with a metric
   explicit RoundWeights(const core::Grid& grid)
       : cell_(grid, -1), face_{EntryWeights(grid, 0), EntryWeights(grid, 1), EntryWeights(grid, 2)} {}
 
@@ -117,7 +122,7 @@ class RoundWeights {
   std::array<EntryWeights, 3> face_;
 };
 
-/// Null for a box.
+/// Null for a box without walls inside.
 [[nodiscard]] std::shared_ptr<const RoundWeights> round_weights(const core::Grid& grid);
 
 /// As with the Lines in a box: calls body(at, share).

@@ -1,4 +1,5 @@
 #include "dem/box.hpp"
+#include "core/numerics/inner_walls.hpp"
 
 #include <gtest/gtest.h>
 
@@ -192,6 +193,58 @@ TEST(Box, HasTheWallsOfATaperedColumn) {
   EXPECT_EQ(narrow.plates.size(), 4U);  // cone, what goes on above it, side and bottom
   EXPECT_EQ(narrow.plates[1].x, 0.05);
   EXPECT_GT(narrow.plates[1].along_y, 10);
+}
+
+// Particles touch the surface that cuts the cells of a fluid: the same distance from the same list.
+TEST(Box, ThickWallsAreThoseThatCutTheFluid) {
+  core::Scene scene;
+  scene.column.size = {1, 1, 1};
+  scene.column.dimensions = 3;
+  for (const bool round : {false, true}) {
+    if (round)
+      scene.walls = {{{0.3, 0.2}, {0.3, 0.5}, core::WallShape::cylinder, 0.1},
+                     {{0.4, 0.7}, {0.8, 0.9}, core::WallShape::cone, 0.05}};
+    else
+      scene.walls = {{{0.2, 0.3}, {0.6, 0.4}, core::WallShape::flat, 0.1},
+                     {{0.7, 0.8}, {0.7, 0.8}, core::WallShape::rod, 0.2}};
+    const core::InnerWalls walls(scene.walls, scene.column.size, false);
+    Box box;
+    box.size = {1, 1, 1};
+    for (const core::InnerWall& wall : scene.walls)
+      round ? box.add_cone({0.5 * wall.from[0], wall.from[1]}, {0.5 * wall.to[0], wall.to[1]}, wall.thickness)
+            : box.add_plate({wall.from[0], wall.from[1], wall.to[0], wall.to[1]}, wall.thickness);
+    int outside = 0;
+    for (int n = 0; n < 2000; ++n) {
+      const Vector x{0.001 * (n * 37 % 1000), 0.001 * (n * 211 % 1000), 0.001 * (n * 503 % 1000)};
+      const core::FromWall wall = walls.nearest(x);
+      if (!(wall.distance > 0)) continue;
+      ++outside;
+      double least = 10, along_x = 0;
+      for (const Plate& plate : box.plates) {
+        const Vector to = plate.to(x);
+        const double distance = std::sqrt(to[0] * to[0] + to[1] * to[1] + to[2] * to[2]);
+        if (distance < least) along_x = to[0];
+        least = std::min(least, distance);
+      }
+      EXPECT_NEAR(along_x, least * wall.away[0], 1e-12);
+      EXPECT_NEAR(least, wall.distance, 1e-12);
+    }
+    EXPECT_GT(outside, 1000);
+  }
+}
+
+// A rod curves with its own radius, 1/R* = sqrt((1/r)(1/r + 1/R)); a draft tube inside with half its thickness less
+// than its middle, outside with as much more.
+TEST(Box, ThickWallsCurveAtTheirSurface) {
+  Box box;
+  box.size = {1, 1, 1};
+  box.add_plate({0.7, 0.8, 0.7, 0.8}, 0.2);
+  box.add_cone({0.2, 0.2}, {0.2, 0.5}, 0.1);
+  ASSERT_EQ(box.curvatures.size(), 3U);
+  EXPECT_NEAR(box.curvatures[0], -1 / 0.1, 1e-12);
+  EXPECT_NEAR(box.curvatures[1], 1 / 0.15, 1e-12);
+  EXPECT_NEAR(box.curvatures[2], -1 / 0.25, 1e-12);
+  EXPECT_EQ(box.plates[0].curve_at({0.9, 0.8, 0.3}), 1);
 }
 
 }  // namespace
