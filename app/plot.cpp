@@ -30,9 +30,11 @@ struct PlotOptions {
 
 namespace fs = std::filesystem;
 
-/// A folder of polybed cost has pictures of its own.
+/// A study, such as that of polybed cost, has pictures of its own.
 bool is_run(const fs::path& directory) {
-  constexpr std::array names{"run.json", "fields.h5", "particles.h5", "cost.json"};
+  constexpr std::array names{"run.json",       "fields.h5",      "particles.h5",
+                             "cost.json",      "fit.json",       "comparison.json",
+                             "inversion.json", "stability.json", "closure_uncertainty.json"};
   return std::any_of(names.begin(), names.end(), [&](const char* name) { return fs::exists(directory / name); });
 }
 

@@ -211,6 +211,9 @@ class Comparison(Scratch):
         self.ends(DONE, "compare", self.case, "--tfm", self.folder / "both/tfm", "--dem", self.folder / "both/dem", "-o",
                   self.folder / "page")
         text = (self.folder / "page/comparison.html").read_text()
+        (self.folder / "page/comparison.html").unlink()
+        self.assertIn("comparison.html", self.ends(DONE, "plot", self.folder / "page").stdout)
+        self.assertEqual((self.folder / "page/comparison.html").read_text(), text)
         self.assertEqual(text.count('src="data:image/png;base64,'), 5)  # three instants, profiles, history
         self.assertEqual(re.findall(r'(?:src|href)="(?!data:)[^"]*"', text), [])
         self.assertGreater(text.find(">Warnings<"), text.find(">Pictures<"), "warnings come after the results")
