@@ -152,12 +152,12 @@ TEST(RoundColumn, IsTheSameInBlocks) {
 }
 
 // 10 m in 10 layers, graded above 4 m by at most 1.2: 6 m are left. 1.2 + 1.44 + 1.728 = 4.368 m are too little, with
-// 2.0736 m more four layers are enough; r + r2 + r3 + r4 = 6 for r = 1.168958, by Newton's method by hand.
+// 2.0736 m more four layers are enough; r + r2 + r3 + r4 = 6 for r = 1.1689595, by Newton's method.
 TEST(GradedLayers, GrowByTheLargestRatioThatFits) {
   const std::vector<double> layers = graded_layers(10, 10, 4, 1.2);
   ASSERT_EQ(layers.size(), 8u);
   for (std::size_t n = 0; n < 4; ++n) EXPECT_EQ(layers[n], 1);
-  for (std::size_t n = 4; n < 8; ++n) EXPECT_NEAR(layers[n] / layers[n - 1], 1.168958, 1e-6);
+  for (std::size_t n = 4; n < 8; ++n) EXPECT_NEAR(layers[n] / layers[n - 1], 1.1689595, 1e-7);
   EXPECT_NEAR(std::accumulate(layers.begin(), layers.end(), 0.0), 10, 1e-13);
 }
 
