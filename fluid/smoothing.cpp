@@ -180,6 +180,14 @@ Smoothing::Sweeps Smoothing::open_sweeps(const core::Grid& grid, int of, const c
       }
     });
   };
+  if (!grid.metric->cut() && !grid.metric->around_axis) {  // a graded box: even across, also over joined sides
+    for (Sweep& even : sweeps(grid, box, time))
+      if (even.axis == 1)
+        add(1, steps);
+      else
+        result.push_back(std::move(even));
+    return result;
+  }
   const bool tapered = grid.metric->tapered();
   add(0, steps / 2);
   if (tapered) add(1, steps / 2);

@@ -147,6 +147,15 @@ void warn_of_coarse_grid(const core::Scene& scene, Lines& warnings) {
                                      1e3 * std::max(bed / 10, least_diameters * core::largest_diameter(scene)))));
 }
 
+void warn_of_graded_bed(const core::Scene& scene, Lines& warnings) {
+  const core::Column& column = scene.column;
+  if (column.layers.empty() || !(scene.bed.static_height > *column.graded_above)) return;
+  warnings.push_back(fmt::format(
+      "column.graded_above = {:.3g} m is below the top of the settled bed, {:.3g} m: the bed is computed in "
+      "growing cells there; give at least the height of the expanded bed",
+      *column.graded_above, scene.bed.static_height));
+}
+
 void warn_of_fine_grid(const core::Scene& scene, Lines& warnings) {
   double least = scene.column.cell(1);
   for (const std::size_t axis : {0, 2})
@@ -211,6 +220,7 @@ std::vector<std::string> grid_warnings(const core::Scene& scene) {
   Lines warnings;
   warn_of_small_obstacles(scene, warnings);
   warn_of_coarse_grid(scene, warnings);
+  warn_of_graded_bed(scene, warnings);
   warn_of_fine_grid(scene, warnings);
   return warnings;
 }

@@ -116,9 +116,9 @@ void perturb_layer(const core::Grid& grid, int y, double share, std::uint64_t se
                    (std::uint64_t(y) * std::uint64_t(nz) + std::uint64_t(z)) * std::uint64_t(nx) + std::uint64_t(x)) -
            1;
   };
-  const double cells = core::open_cells_of_layer(grid, y);
   const core::CrossSection* section = grid.metric ? &grid.metric->layer(y) : nullptr;
   const auto open = [&](int x, int z) { return section ? section->volume[section->at(x, z)] : 1.0; };
+  const double cells = section ? std::accumulate(section->volume.begin(), section->volume.end(), 0.0) : double(nx) * nz;
   double mean = 0;
   for (int z = 0; z < nz; ++z)
     for (int x = 0; x < nx; ++x) mean += open(x, z) * random(x, z) / cells;

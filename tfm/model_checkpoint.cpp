@@ -86,6 +86,7 @@ core::Checkpoint Model::checkpoint() const {
   for (const auto& part : parts_) part->write(c, time_);
   for (auto& [name, parts] : checkpoint_parts())
     if (c.arrays.contains(name)) c.parts[name] = std::move(parts);
+  core::put_layers(constants().grid, c);
   c.numbers["time_s"] = time_;
   c.numbers["step_s"] = step_;
   c.texts["integrator"] = core::name_of(integrator_.kind);
@@ -160,6 +161,7 @@ void Model::check_fits(const core::Checkpoint& checkpoint) const {
       pressure->second.size() != constants().grid.cell_count() ||
       (first && (kind == checkpoint.texts.end() || kind->second != core::name_of(integrator_.kind))))
     throw core::FileError("the checkpoint belongs to another case: its unknowns or its integrator differ");
+  if (first) core::require_layers(constants().grid, checkpoint);
   core::require_numbers(checkpoint);
   for (const StateLayout::Entry& entry : layout_.entries()) {
     const auto [least, most] = range_of(entry.kind);

@@ -143,8 +143,7 @@ bool RowMeanSolver::average(const FaceSpans& coefficient, std::span<const double
     faces = 0;
     for_each_row(grid_, lo, hi, [&](Index begin, Index end) {
       for (auto c = std::size_t(begin); c < std::size_t(end); ++c) {
-        const double open =
-            grid_.metric ? grid_.metric->open[a][c] * (axis == 1 ? 1 : grid_.metric->per_height[c]) : 1.0;
+        const double open = grid_.metric ? grid_.metric->open[a][c] : 1.0;
         if (!(open > 0)) continue;
         const double b = coefficient[a][c] / open;
         sum += b;

@@ -1,6 +1,7 @@
 #include "core/output/checkpoint.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -191,6 +192,20 @@ const Value& entry(const std::map<std::string, Value>& entries, const std::strin
 }
 
 }  // namespace
+
+void put_layers(const Grid& grid, Checkpoint& checkpoint) {
+  if (grid.layers) checkpoint.texts["layers"] = fmt::format("{}", fmt::join(grid.layers->height, " "));
+}
+
+void require_layers(const Grid& grid, const Checkpoint& checkpoint) {
+  Checkpoint own;
+  put_layers(grid, own);
+  const auto there = checkpoint.texts.find("layers"), here = own.texts.find("layers");
+  const bool graded = here != own.texts.end();
+  if (graded != (there != checkpoint.texts.end()) || (graded && there->second != here->second))
+    throw FileError(
+        "the checkpoint is of a column with other layers of cells: column.grading or what goes with it differs");
+}
 
 void refuse_checkpoint(const std::string& reason) {
   throw FileError("the checkpoint is whole but cannot be resumed: " + reason);

@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "core/numerics/grid.hpp"
 #include "core/output/blocks.hpp"
 #include "core/output/file.hpp"
 
@@ -53,6 +54,10 @@ struct Checkpoint {
 
 /// Throws FileError with the reason why the content of an intact checkpoint is impossible.
 [[noreturn]] void refuse_checkpoint(const std::string& reason);
+
+/// Records the graded layers of a column, and throws FileError if a checkpoint is of other ones: the first rank's.
+void put_layers(const Grid& grid, Checkpoint& checkpoint);
+void require_layers(const Grid& grid, const Checkpoint& checkpoint);
 
 /// Runs code that reads the contents of a checkpoint, and adds the file name to a FileError that lacks it.
 void name_checkpoint(const std::filesystem::path& path, const std::function<void()>& take_up);

@@ -21,6 +21,7 @@ Field Coupling::of_column(const Field& own) const {
   GridExchange all = *exchange_;
   all.choose_all();
   Field column = core::make_field(core::whole_column(flow_.grid()));
+  core::on_first(ranks_.get(), [&] { core::require_layers(flow_.grid(), checkpoint); });
   const std::pair<const Field*, Field*> fields{&own, &column};
   all.fetch(std::span(&fields, 1));
   return column;
@@ -144,6 +145,7 @@ void Coupling::write_fields(core::Checkpoint& checkpoint) const {
   for (std::size_t j = 0; j < fraction_.size(); ++j)
     checkpoint.arrays[fmt::format("fluid_fraction_{}", j)] = of_column(fraction_[j]);
   checkpoint.integers["fluid_steps"] = std::int64_t(steps_);
+  core::put_layers(flow_.grid(), checkpoint);
 }
 
 void Coupling::read_fields(const core::Checkpoint& checkpoint) {

@@ -96,9 +96,11 @@ TEST_P(GradedColumn, HasTheSameVoidageInLayersOfEveryHeight) {
   EXPECT_LT(*most - *least, 1e-4);
 }
 
-// A mixed binary bed between walls that expands through the graded part.
+// A mixed binary bed between walls that reaches into the graded part and expands through it, with random fractions.
 core::Scene expanding() {
   core::Scene scene = binary_bed(6, 60, 0.03, 0.18);
+  scene.bed.static_height = 0.06;
+  scene.bed.perturbation = 0.05;
   scene.tfm.rtol = 1e-3;
   return graded(scene, 0.04, 1.2);
 }

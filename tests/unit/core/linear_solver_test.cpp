@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
 #include <numbers>
 #include <random>
 
@@ -105,21 +106,37 @@ TEST_F(LinearSolver, TakesRowMeansWhereCoefficientsAlongARowAreAlike) {
     }
 }
 
-// Alike in every row: the means are the coefficients, and one iteration solves to round-off.
+/// Layers of a grid that grow from its spacing on, each a tenth higher than the one below.
+std::shared_ptr<const Layers> growing_layers(const Grid& grid) {
+  Layers layers{{grid.spacing[1]}, {0, grid.spacing[1]}};
+  while (int(layers.height.size()) < grid.cells[1]) {
+    layers.height.push_back(1.1 * layers.height.back());
+    layers.low.push_back(layers.low.back() + layers.height.back());
+  }
+  return std::make_shared<const Layers>(layers);
+}
+
+// Alike in every row: the means are the coefficients, and one iteration solves to round-off. Layers even or graded.
 TEST_F(LinearSolver, TakesOneIterationOnRowsThatAreEven) {
-  const Grid grid = box(12, 30);
-  FaceField b = make_face_field(grid);
-  for (int axis = 0; axis < 2; ++axis)
-    for (int j = 0; j <= 30; ++j)
-      for (int i = 0; i <= 12; ++i) b[std::size_t(axis)][std::size_t(grid.index(i, j))] = 1 + 0.5 * std::sin(j);
-  close(grid, 0, true, true, b);
-  close(grid, 1, true, false, b);
-  const Field source = cells_of(grid, [](int i, int j) { return std::sin(i * i + 2.3 * j); });
-  Field p = make_field(grid);
-  PoissonSolver solver(grid);
-  const PoissonResult result = solver.solve(spans(b), {}, source, p, 1e-10);
-  EXPECT_TRUE(result.converged);
-  EXPECT_EQ(result.iterations, 1);
+  for (const bool graded : {false, true}) {
+    Grid grid = box(12, 30);
+    if (graded) grid.layers = growing_layers(grid);
+    grid.metric = metric_of(grid, ColumnShape::box);
+    FaceField b = make_face_field(grid);
+    for (int axis = 0; axis < 2; ++axis)
+      for (int j = 0; j <= 30; ++j)
+        for (int i = 0; i <= 12; ++i) b[std::size_t(axis)][std::size_t(grid.index(i, j))] = 1 + 0.5 * std::sin(j);
+    close(grid, 0, true, true, b);
+    close(grid, 1, true, false, b);
+    weigh_faces(grid, b);
+    Field source = cells_of(grid, [](int i, int j) { return std::sin(i * i + 2.3 * j); });
+    weigh_cells(grid, source);
+    Field p = make_field(grid);
+    PoissonSolver solver(grid);
+    const PoissonResult result = solver.solve(spans(b), {}, source, p, 1e-10);
+    EXPECT_TRUE(result.converged) << graded;
+    EXPECT_EQ(result.iterations, 1) << graded;
+  }
 }
 
 /// A tube cut out of cells that are as deep as wide or not, odd and even numbers of them.
@@ -169,23 +186,27 @@ TEST_F(LinearSolver, TakesTheModesOfARoundSection) {
 }
 
 TEST_F(LinearSolver, TakesOneIterationInATubeThatIsEven) {
-  const Grid grid = tube(8, 8, 12);
-  FaceField b = make_face_field(grid);
-  for (std::size_t a = 0; a < 3; ++a)
-    for (int k = 0; k <= 8; ++k)
-      for (int j = 0; j <= 12; ++j)
-        for (int i = 0; i <= 8; ++i) b[a][std::size_t(grid.index(i, j, k))] = 1 + 0.5 * std::sin(j);
-  for (const int axis : {0, 2}) close(grid, axis, true, true, b);
-  close(grid, 1, true, false, b);
-  weigh_faces(grid, b);
-  Field source = make_field(grid), p = source;
-  std::uniform_real_distribution<double> value(-1, 1);
-  for (double& s : source) s = value(random_);
-  weigh_cells(grid, source);
-  PoissonSolver solver(grid);
-  const PoissonResult result = solver.solve(spans(b), {}, source, p, 1e-10);
-  EXPECT_TRUE(result.converged);
-  EXPECT_EQ(result.iterations, 1);
+  for (const bool graded : {false, true}) {
+    Grid grid = tube(8, 8, 12);
+    if (graded) grid.layers = growing_layers(grid);
+    grid.metric = metric_of(grid, ColumnShape::cylinder);
+    FaceField b = make_face_field(grid);
+    for (std::size_t a = 0; a < 3; ++a)
+      for (int k = 0; k <= 8; ++k)
+        for (int j = 0; j <= 12; ++j)
+          for (int i = 0; i <= 8; ++i) b[a][std::size_t(grid.index(i, j, k))] = 1 + 0.5 * std::sin(j);
+    for (const int axis : {0, 2}) close(grid, axis, true, true, b);
+    close(grid, 1, true, false, b);
+    weigh_faces(grid, b);
+    Field source = make_field(grid), p = source;
+    std::uniform_real_distribution<double> value(-1, 1);
+    for (double& s : source) s = value(random_);
+    weigh_cells(grid, source);
+    PoissonSolver solver(grid);
+    const PoissonResult result = solver.solve(spans(b), {}, source, p, 1e-10);
+    EXPECT_TRUE(result.converged) << graded;
+    EXPECT_EQ(result.iterations, 1) << graded;
+  }
 }
 
 // The same in three dimensions, walls or joined sides.

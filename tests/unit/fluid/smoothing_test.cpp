@@ -290,6 +290,24 @@ std::shared_ptr<const core::Layers> graded_layers(double lowest) {
   return std::make_shared<const core::Layers>(layers);
 }
 
+// A field that is the same in every row becomes that of even layers, also across joined sides.
+TEST(Smoothing, OfAGradedBoxCrossesJoinedSides) {
+  for (const bool joined : {false, true}) {
+    const core::Grid even = grid_of({"", 3, {8, 7, 6}, {joined, false, joined}, 0, true});
+    core::Grid graded = even;
+    graded.layers = graded_layers(even.spacing[1]);
+    graded.metric = core::metric_of(graded, core::ColumnShape::box);
+    Field expected = core::make_field(even), found = expected;
+    for (int k = 0; k < 6; ++k)
+      for (int j = 0; j < 7; ++j) expected[std::size_t(even.index(0, j, k))] = 1 + 0.1 * k;
+    found = expected;
+    Smoothing(even, 3, true).smooth_cells(expected);
+    Smoothing(graded, 3, true).smooth_cells(found);
+    for_each_entry(even, core::owned_cells(even),
+                   [&](std::size_t c) { EXPECT_NEAR(found[c], expected[c], round_off); });
+  }
+}
+
 // Weighed by open volumes: the sum stays, and the operator is its own transpose, though its axes do not commute.
 TEST(Smoothing, OfARoundOrGradedColumnIsConservativeAndSymmetricByVolume) {
   using enum core::ColumnShape;
