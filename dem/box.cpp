@@ -11,7 +11,8 @@ constexpr int bands_of_cone = 16;
 /// Whether a point lies on a plate, to rounding.
 bool lies_on(const Plate& plate, const InPlane& point) {
   const InPlane away = plate.from_middle(point);
-  return plate.per_square * (away[0] * away[0] + away[1] * away[1]) < 1e-18;
+  const double size = plate.per_square > 0 ? 1 / plate.per_square : plate.half * plate.half;  // a rod has no length
+  return away[0] * away[0] + away[1] * away[1] < 1e-18 * size;
 }
 
 }  // namespace
@@ -23,7 +24,8 @@ int Plate::curve_at(const Vector& centre) const {
   const InPlane point = in_plane(centre);
   const double at = share(point);
   if (!(at >= 0 && at <= 1)) return 0;
-  const double through = at * (x + along_x) / (x + at * along_x);  // share of the change in curvature, as 1/rho changes
+  const double rho = x + at * along_x;
+  const double through = rho > 0 ? at * (x + along_x) / rho : 0;  // share of the change in curvature, as 1/rho changes
   const int band = std::min(int(through * curve_bands), curve_bands - 1);
   return 1 + first_curve + 2 * band + (from_middle(point)[0] > 0 ? 1 : 0);
 }

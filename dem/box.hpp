@@ -82,6 +82,11 @@ struct Plate {
     const double beyond = 1 - half / std::sqrt(away[0] * away[0] + away[1] * away[1]);
     return {beyond * away[0], beyond * away[1]};
   }
+  /// Distance of a point from its surface, m; below 0 inside.
+  [[nodiscard]] double gap(const InPlane& point) const {
+    const InPlane away = from_middle(point);
+    return std::sqrt(away[0] * away[0] + away[1] * away[1]) - half;
+  }
   /// Vector to a centre from the nearest point on the surface of the plate, m. On the axis of a round one, along x.
   [[nodiscard]] Vector to(const Vector& centre) const {
     const InPlane point = in_plane(centre), away = to(point);

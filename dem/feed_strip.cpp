@@ -76,10 +76,8 @@ bool FeedStrip::overlap(const Place& a, const Place& b) const {
 
 bool FeedStrip::has_room_for(const Place& sphere) const {
   if (!box_.within_side(sphere)) return false;
-  for (const Plate& plate : box_.plates) {
-    const InPlane away = plate.to(plate.in_plane(sphere.x));
-    if (std::hypot(away[0], away[1]) < sphere.radius) return false;
-  }
+  for (const Plate& plate : box_.plates)
+    if (plate.gap(plate.in_plane(sphere.x)) < sphere.radius) return false;
   const int i = place_of(sphere.x[across_[0]], 0), k = place_of(sphere.x[across_[1]], 1);
   // A bin that is its own neighbour is searched again, without effect.
   const auto near = [this](int n, std::size_t axis) {

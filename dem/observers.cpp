@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/numerics/messages.hpp"
+#include "core/numerics/metric.hpp"
 #include "dem/parallel/gathered.hpp"
 #include "measures/bed.hpp"
 
@@ -67,6 +68,10 @@ measures::Slabs slabs_of(const Model& model, const core::Column& column) {
   const double thickness = slabs.thickness();
   for (std::size_t k = 0; k < slabs.count && column.is_tapered(); ++k)
     slabs.areas.push_back(column.area_between(double(k) * thickness, double(k + 1) * thickness));
+  if (model.coupling() == nullptr) return slabs;
+  const core::Grid& grid = model.coupling()->flow().grid();
+  for (std::size_t k = 0; k < slabs.count && grid.metric && grid.metric->walls; ++k)
+    slabs.areas.push_back(core::open_cells_of_layer(grid, int(k)) * grid.spacing[0] * grid.spacing[2]);
   return slabs;
 }
 

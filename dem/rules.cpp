@@ -66,6 +66,20 @@ std::vector<core::Rule> key_rules() {
        [](const core::Scene& scene) {
          return core::broken_if(scene.column.grading && scene.dem.own_share == core::OwnShare::removed);
        }},
+      {{"wall.shape", "fluid.name", "column.shape"},
+       "[[wall]] in a round column with a fluid: polybed tfm can run it, polybed dem cannot yet",
+       [](const core::Scene& scene) {
+         return core::broken_if(!scene.walls.empty() && scene.fluid.present() && scene.column.is_round());
+       }},
+      {{"wall.shape", "fluid.name", "bed.start"},
+       "[[wall]] in a fluid and bed.start = \"list:FILE\" or \"checkpoint:FILE\" cannot be combined yet in polybed "
+       "dem: "
+       "particles could begin inside a wall; use \"mixed\"",
+       [](const core::Scene& scene) {
+         const core::StartKind kind = scene.bed.start.kind;
+         return core::broken_if(!scene.walls.empty() && scene.fluid.present() &&
+                                (kind == core::StartKind::list || kind == core::StartKind::checkpoint));
+       }},
       {{"wall.shape", "fluid.name", "dem.own_share"},
        "[[wall]] in a fluid and dem.own_share = \"removed\" cannot be combined yet; use dem.own_share = \"kept\"",
        [](const core::Scene& scene) {

@@ -212,7 +212,8 @@ Broken walls_outside(const Scene& scene) {
   const auto& size = scene.column.size;
   for (std::size_t n = 0; n < scene.walls.size(); ++n) {
     const InnerWall& wall = scene.walls[n];
-    const double width = wall.is_round() ? std::min(size[0], size[2]) : size[0];
+    const double across = scene.column.around_axis() ? 2 * size[0] : std::min(size[0], size[2]);
+    const double width = wall.is_round() ? across : size[0];
     const auto beyond = [&](std::size_t d, double most) {
       return std::max(wall.from[d], wall.to[d]) > most * (1 + 1e-12);
     };
@@ -280,9 +281,9 @@ Broken walls_too_thin(const Scene& scene) {
   Broken broken;
   for (std::size_t n = 0; n < scene.walls.size(); ++n) {
     const InnerWall& wall = scene.walls[n];
-    if (wall.from.empty() || wall.to.empty() || (!scene.fluid.present() && wall.shape != WallShape::rod)) continue;
-    const double least = scene.fluid.present() ? least_thickness(scene.column, wall) : 0;
-    if (wall.thickness == 0 || wall.thickness < least * (1 - 1e-9))
+    if (!scene.fluid.present() || wall.from.empty() || (wall.to.empty() && wall.shape != WallShape::rod)) continue;
+    const double least = least_thickness(scene.column, wall);
+    if (wall.thickness < least * (1 - 1e-9))
       broken.add({std::to_string(n + 1), fmt::format("{:.4g}", wall.thickness), fmt::format("{:.4g}", least)}, n);
   }
   return broken;
@@ -325,6 +326,15 @@ std::vector<Rule> rules_of_each_wall() {
       {{"wall.from", "wall.to", "wall.shape", "column.size"},
        "[[wall]] number {} does not lie in the column, {} m wide and {} m high",
        walls_outside},
+      {{"wall.thickness", "wall.shape"},
+       "[[wall]] number {} is a rod without thickness: give its diameter in wall.thickness",
+       [](const Scene& scene) {
+         Broken broken;
+         for (std::size_t n = 0; n < scene.walls.size(); ++n)
+           if (scene.walls[n].shape == WallShape::rod && scene.walls[n].thickness == 0)
+             broken.add({std::to_string(n + 1)}, n);
+         return broken;
+       }},
       {{"wall.from", "wall.to"}, "[[wall]] number {} has no length: its ends are one point", walls_without_length},
       {{"wall.thickness", "wall.from", "wall.to", "column.size", "column.cells", "fluid.name"},
        "[[wall]] number {} is {} m thick, in the fluid it needs {} m or more on these cells, a rod twice as much as "
@@ -350,6 +360,13 @@ std::vector<Rule> rules_of_any_wall() {
       wall_rule("column.size", "a cone or cylinder needs three dimensions; give column.size three numbers",
                 [](const Scene& scene) {
                   return has_round_wall(scene) && scene.column.dimensions != 3 && !scene.column.around_axis();
+                }),
+      wall_rule("jet.at", "[[jet]], [[feed]] and [[discharge]] in the sides cannot be combined with it in a fluid yet",
+                [](const Scene& scene) {
+                  const auto aside = [](const auto& parts) {
+                    return std::any_of(parts.begin(), parts.end(), [](const auto& part) { return is_side(part.at); });
+                  };
+                  return scene.fluid.present() && (aside(scene.jets) || aside(scene.feeds) || aside(scene.discharges));
                 }),
       wall_rule("bed.start", "bed.start = \"random\" would place particles on both sides of it; use \"mixed\"",
                 [](const Scene& scene) { return scene.bed.start.kind == StartKind::random; })};

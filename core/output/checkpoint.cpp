@@ -200,9 +200,11 @@ void put_layers(const Grid& grid, Checkpoint& checkpoint) {
 void require_layers(const Grid& grid, const Checkpoint& checkpoint) {
   Checkpoint own;
   put_layers(grid, own);
-  const auto there = checkpoint.texts.find("layers"), here = own.texts.find("layers");
-  const bool graded = here != own.texts.end();
-  if (graded != (there != checkpoint.texts.end()) || (graded && there->second != here->second))
+  const auto layers_of = [](const Checkpoint& one) {
+    const auto found = one.texts.find("layers");
+    return found == one.texts.end() ? std::string() : found->second;
+  };
+  if (layers_of(own) != layers_of(checkpoint))
     throw FileError(
         "the checkpoint is of a column with other layers of cells: column.grading or what goes with it differs");
 }

@@ -21,7 +21,6 @@ Field Coupling::of_column(const Field& own) const {
   GridExchange all = *exchange_;
   all.choose_all();
   Field column = core::make_field(core::whole_column(flow_.grid()));
-  core::on_first(ranks_.get(), [&] { core::require_layers(flow_.grid(), checkpoint); });
   const std::pair<const Field*, Field*> fields{&own, &column};
   all.fetch(std::span(&fields, 1));
   return column;
@@ -149,6 +148,7 @@ void Coupling::write_fields(core::Checkpoint& checkpoint) const {
 }
 
 void Coupling::read_fields(const core::Checkpoint& checkpoint) {
+  core::on_first(ranks_.get(), [&] { core::require_layers(flow_.grid(), checkpoint); });
   Field column = core::make_field(core::whole_column(flow_.grid()));
   const auto take = [&](const std::string& name, double least, double most, Field& own) {
     core::on_first(ranks_.get(), [&] {

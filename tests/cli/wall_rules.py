@@ -25,6 +25,9 @@ WALLS = {
     "column.graded_above = {} m leaves no layers to grade in a column of {} m: lower it, or leave out column.grading": [
         GRADED, "column.graded_above=0.195"],
     "column.grading and column.profile cannot be combined yet: leave out one of them": [GRADED, "column.graded_above=0.1", *TAPERED],
+    "column.grading and [[wall]] in a fluid cannot be combined yet: leave out one of them": [
+        GRADED, "column.graded_above=0.15", wall([0.02, 0.1], [0.06, 0.1], thickness=0.02)],
+    "[[wall]] number {} is a rod without thickness: give its diameter in wall.thickness": [wall([0.02, 0.1], [0.02, 0.1], "rod")],
     'column.shape = "cylinder" takes column.size = [diameter, diameter, height]': ["column.shape=cylinder"],
     "species.diameter: {} m is more than half the diameter of the round column, {} m": [
         "column.shape=cylinder", "column.size=[0.0015,0.0015,0.2]", "column.cells=[1,1,20]"],
@@ -53,6 +56,8 @@ WALLS = {
     '[[wall]] number {} is flat beside round walls: use shape = "cone" or "cylinder" for all of them, or column.shape = "box" and flat ones': [
         *ROUND, wall([0, 0.05], [0.02, 0.01])],
     **{f"[[wall]]: {told}": [wall([0, 0.05], [0.02, 0.01]), *words] for told, words in (
+        ("[[jet]], [[feed]] and [[discharge]] in the sides cannot be combined with it in a fluid yet",
+         ['jet=[{at="left", from=[0.05], to=[0.08], superficial_velocity=0.1}]']),
         ('bed.start = "layered" cannot be combined with it in a fluid; use "mixed"', ["bed.start=layered"]),
         ('column.sides = "periodic" would end it at the side; use "wall"', ["column.sides=periodic"]),
         ('column.ends = "periodic" would end it at the bottom; use "wall"', ["column.ends=periodic"]),
@@ -72,6 +77,10 @@ ROUND_OF_MODELS = {
         AROUND, "tfm.solids_wall=johnson_jackson"],
     '[[wall]] and tfm.solids_wall = "{}" cannot be combined yet: the solids slip freely along walls inside': [
         wall([0.02, 0.1], [0.06, 0.1], thickness=0.02), "tfm.solids_wall=no_slip"],
+    "[[wall]] in a round column with a fluid: polybed tfm can run it, polybed dem cannot yet": [
+        *ROUND, wall([0.02, 0.1], [0.02, 0.15], "cylinder", 0.015)],
+    '[[wall]] in a fluid and bed.start = "list:FILE" or "checkpoint:FILE" cannot be combined yet in polybed dem: particles could begin inside '
+    'a wall; use "mixed"': [wall([0.02, 0.1], [0.06, 0.1], thickness=0.02), "bed.start=list:particles.csv"],
     '[[wall]] in a fluid and dem.own_share = "removed" cannot be combined yet; use dem.own_share = "kept"': [
         wall([0.02, 0.1], [0.06, 0.1], thickness=0.02), "dem.own_share=removed"],
     'column.shape = "cylinder" and dem.own_share = "removed" cannot be combined yet; use dem.own_share = "kept"': [

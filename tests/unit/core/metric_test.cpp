@@ -213,7 +213,7 @@ TEST(GradedMetric, FollowsFromTheHeights) {
     EXPECT_EQ(grid.centre(1, 3), 0.6000000000000001);
     EXPECT_EQ(grid.column_height(), 0.8);
     EXPECT_NEAR(grid.low(1, 6), 1.6, 1e-14);  // continues above the top
-    test::expect_conserving(grid);
+    checks::expect_conserving(grid);
   }
 }
 

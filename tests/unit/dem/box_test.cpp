@@ -233,6 +233,16 @@ TEST(Box, ThickWallsAreThoseThatCutTheFluid) {
   }
 }
 
+TEST(Box, EqualRodsAndPlatesApartAllPush) {
+  Box box;
+  box.add_plate({0.2, 0.5, 0.2, 0.5}, 0.1);
+  box.add_plate({0.7, 0.5, 0.7, 0.5}, 0.1);
+  box.add_plate({0.3, 0.9, 0.6, 0.9}, 0.1);
+  EXPECT_TRUE(box.joints.empty());
+  EXPECT_EQ(pushing(box, {0.7, 0.6, 0}), 3);
+  EXPECT_NEAR(box.plates[1].gap({0.7, 0.52}), -0.03, 1e-15);  // inside
+}
+
 // A rod curves with its own radius, 1/R* = sqrt((1/r)(1/r + 1/R)); a draft tube inside with half its thickness less
 // than its middle, outside with as much more.
 TEST(Box, ThickWallsCurveAtTheirSurface) {
