@@ -82,10 +82,10 @@ class Hopper(Scratch):
         self.assertGreater(np.min(places[0][-1].reshape(-1, 3)[:, 1]), 0.0105)  # it lies on the wall
         self.assertTrue(np.array_equal(*places))
 
-    def test_a_wall_needs_a_dry_column(self):
+    def test_a_wall_without_thickness_needs_a_dry_column(self):
         wet = BED.replace('name = "none"', 'name = "water"\ntemperature = "20 degC"') + SIDES
         told = self.ends(WRONG_CASE, "dem", self.write("wet.toml", wet), "-o", self.folder / "wet").stderr
-        self.assertIn('a fluid would pass through it; set fluid.name = "none"', told)
+        self.assertIn("[[wall]] number 1 is 0 m thick, in the fluid it needs 0.00683 m or more", told)
 
     def test_the_resolved_case_keeps_them(self):
         resolved = strict_json(self.ends(DONE, "check", self.write("a.toml", BED + SIDES), "--json").stdout)["case"]

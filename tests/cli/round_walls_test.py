@@ -100,11 +100,11 @@ class RoundHopper(Scratch):
         told = self.ends(FILE, "dem", self.write("round.toml", text), "--quiet", "-o", self.folder / "round").stderr
         self.assertIn("particle 1 lies outside the round column", told)
 
-    def test_walls_inside_are_for_dry_runs(self):
+    def test_walls_without_thickness_are_for_dry_runs(self):
         wet = BED.replace('name = "none"', 'name = "water"\ntemperature = "20 degC"')
         for model in ("dem", "tfm"):
             told = self.ends(WRONG_CASE, model, self.write("wet.toml", wet), "-o", self.folder / "wet").stderr
-            self.assertIn("[[wall]]: a fluid would pass through it", told)
+        self.assertIn("[[wall]] number 1 is 0 m thick, in the fluid it needs", told)
 
     def test_the_resolved_case_keeps_its_shapes(self):
         resolved = strict_json(self.ends(DONE, "check", self.write("a.toml", BED), "--json").stdout)["case"]

@@ -139,7 +139,7 @@ class Report(unittest.TestCase):
     def test_runs_contradict_an_interval_of_the_force_balance(self):
         found = scan(30.0, 0.1, 28, 31)
         found.found.steps = [Step(u, None, Mean(0, 1)) for u in (25, 28, 31)]
-        found.runs = [report.RunOfScan(0, 0, 1, 0, 0, 1, 1, "", "", [], interface) for interface in (0.4, 0.5, 1.0)]
+        found.runs = [{"interface_over_height": interface, "warnings": []} for interface in (0.4, 0.5, 1.0)]
         others = {"mixed_interval_m_s": [27, 32], "equal_bulk_density_m_s": 27, "measured_m_s": None, "simulated_m_s": None}
         told = report.findings([found], None, others, ["fine", "coarse"])
         self.assertIn("tfm: contradicts it: not mixed at 2.8e+04 mm/s\n", told)
