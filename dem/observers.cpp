@@ -62,16 +62,13 @@ std::vector<double> slab_centres(const measures::Slabs& slabs) {
 }
 
 measures::Slabs slabs_of(const Model& model, const core::Column& column) {
-  measures::Slabs slabs{column.cross_section(), model.box().size[1],
-                        std::size_t(std::lround(column.size[1] / column.cell(1))), model.box().periodic[1],
-                        model.box().image_speed()};
+  measures::Slabs slabs{column.cross_section(), model.box().size[1], std::size_t(column.even_layers()),
+                        model.box().periodic[1], model.box().image_speed()};
   const double thickness = slabs.thickness();
   for (std::size_t k = 0; k < slabs.count && column.is_tapered(); ++k)
     slabs.areas.push_back(column.area_between(double(k) * thickness, double(k + 1) * thickness));
-  if (model.coupling() == nullptr) return slabs;
-  const core::Grid& grid = model.coupling()->flow().grid();
-  for (std::size_t k = 0; k < slabs.count && grid.metric && grid.metric->walls; ++k)
-    slabs.areas.push_back(core::open_cells_of_layer(grid, int(k)) * grid.spacing[0] * grid.spacing[2]);
+  if (slabs.areas.empty() && model.coupling() != nullptr)
+    slabs.areas = core::areas_of_layers(model.coupling()->flow().grid());
   return slabs;
 }
 

@@ -39,6 +39,16 @@ core::Broken discharges_that_touch(const core::Scene& scene) {
   return broken;
 }
 
+/// What dem.own_share = "removed" does not know yet, in a fluid.
+core::Rule with_own_share(const std::string& key, const std::string& what, bool (*is)(const core::Scene&)) {
+  return {
+      {key, "fluid.name", "dem.own_share"},
+      what + " and dem.own_share = \"removed\" cannot be combined yet; use dem.own_share = \"kept\"",
+      [is](const core::Scene& scene) {
+        return core::broken_if(scene.fluid.present() && scene.dem.own_share == core::OwnShare::removed && is(scene));
+      }};
+}
+
 }  // namespace
 
 std::vector<core::Rule> key_rules() {
@@ -54,18 +64,11 @@ std::vector<core::Rule> key_rules() {
        [](const core::Scene& scene) {
          return core::broken_if(scene.dem.kernel == core::Kernel::bilinear && scene.dem.kernel_width.has_value());
        }},
-      {{"column.shape", "dem.own_share"},
-       "column.shape = \"cylinder\" and dem.own_share = \"removed\" cannot be combined yet; use dem.own_share = "
-       "\"kept\"",
-       [](const core::Scene& scene) {
-         return core::broken_if(scene.column.is_round() && scene.fluid.present() &&
-                                scene.dem.own_share == core::OwnShare::removed);
-       }},
-      {{"column.grading", "dem.own_share"},
-       "column.grading and dem.own_share = \"removed\" cannot be combined yet; use dem.own_share = \"kept\"",
-       [](const core::Scene& scene) {
-         return core::broken_if(scene.column.grading && scene.dem.own_share == core::OwnShare::removed);
-       }},
+      with_own_share("column.shape", "column.shape = \"cylinder\"",
+                     [](const core::Scene& scene) { return scene.column.is_round(); }),
+      with_own_share("column.grading", "column.grading",
+                     [](const core::Scene& scene) { return scene.column.grading.has_value(); }),
+      with_own_share("wall.shape", "[[wall]]", [](const core::Scene& scene) { return !scene.walls.empty(); }),
       {{"wall.shape", "fluid.name", "column.shape"},
        "[[wall]] in a round column with a fluid: polybed tfm can run it, polybed dem cannot yet",
        [](const core::Scene& scene) {
@@ -73,19 +76,13 @@ std::vector<core::Rule> key_rules() {
        }},
       {{"wall.shape", "fluid.name", "bed.start"},
        "[[wall]] in a fluid and bed.start = \"list:FILE\" or \"checkpoint:FILE\" cannot be combined yet in polybed "
-       "dem: "
-       "particles could begin inside a wall; use \"mixed\"",
+       "dem: particles could begin inside a wall; use \"mixed\"",
        [](const core::Scene& scene) {
          const core::StartKind kind = scene.bed.start.kind;
          return core::broken_if(!scene.walls.empty() && scene.fluid.present() &&
                                 (kind == core::StartKind::list || kind == core::StartKind::checkpoint));
        }},
-      {{"wall.shape", "fluid.name", "dem.own_share"},
-       "[[wall]] in a fluid and dem.own_share = \"removed\" cannot be combined yet; use dem.own_share = \"kept\"",
-       [](const core::Scene& scene) {
-         return core::broken_if(!scene.walls.empty() && scene.fluid.present() &&
-                                scene.dem.own_share == core::OwnShare::removed);
-       }}};
+  };
   return relevance::joined({rules_of_keys(), own, feed_rules()});
 }
 

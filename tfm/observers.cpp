@@ -26,21 +26,12 @@ std::vector<double> slab_centres(const core::Grid& grid) {
   return y;
 }
 
-/// Areas of the layers in a tapered column, m2; empty if all are equal.
-std::vector<double> areas_of_layers(const core::Grid& grid) {
-  std::vector<double> areas;
-  if (grid.metric && grid.metric->tapered())
-    for (int y = 0; y < grid.column_cells(1); ++y)
-      areas.push_back(core::open_cells_of_layer(grid, y) * grid.spacing[0] * grid.spacing[2]);
-  return areas;
-}
-
 /// Whether there are granular temperatures to write, as unknowns or from a local balance.
 bool knows_temperature(const Model& model) { return !model.fields().solids.temperature.empty(); }
 
 std::vector<std::string> profile_names(const Constants& constants, bool temperature) {
   std::vector<std::string> names{"voidage", "p"};
-  if (!areas_of_layers(constants.grid).empty()) names.emplace_back(core::area_of_slabs);
+  if (!core::areas_of_layers(constants.grid).empty()) names.emplace_back(core::area_of_slabs);
   for (const std::string& name : constants.name) {
     names.push_back("phi_" + name);
     names.push_back("u_" + name);
@@ -105,7 +96,7 @@ measures::Profile part_of_profile(const Model& model) {
   const core::Grid& grid = model.constants().grid;
   measures::Profile profile;
   profile.slab = grid.spacing[1];
-  profile.areas = areas_of_layers(grid);
+  profile.areas = core::areas_of_layers(grid);
   for (const core::Field& phi : model.fields().solids.fraction)
     profile.fraction.push_back(measures::part_of_lateral_mean(grid, phi));
   profile.pressure = measures::part_of_lateral_mean(grid, model.fields().fluid.pressure, measures::Within::linear);
@@ -242,7 +233,7 @@ void Observers::write_fields(double time) {
   };
   add_mean(fields.fluid.voidage);
   add_mean(fields.fluid.pressure, measures::Within::linear);
-  if (const std::vector<double> areas = areas_of_layers(grid); !areas.empty()) rows.push_back(areas);
+  if (const std::vector<double> areas = core::areas_of_layers(grid); !areas.empty()) rows.push_back(areas);
   std::vector<core::FaceField> velocities{core::cell_means(grid, fields.fluid.velocity)};
   for (const core::FaceField& u : fields.solids.velocity) velocities.push_back(core::cell_means(grid, u));
   std::vector<core::Field> temperatures;

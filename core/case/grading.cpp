@@ -15,14 +15,15 @@ std::vector<double> graded_layers(double height, int cells, double above, double
     return sum;
   };
   int count = 0;
-  while (grown(count, ratio) < left * (1 - 1e-12)) ++count;
+  double sum = 0, layer = even;
+  for (; sum < left * (1 - 1e-12); ++count) sum += layer *= ratio;
   double low = 1, high = ratio;
   for (int n = 0; n < 100; ++n) {
     const double factor = 0.5 * (low + high);
     (grown(count, factor) < left ? low : high) = factor;
   }
   std::vector<double> layers(std::size_t(fine), even);
-  double layer = even;
+  layer = even;
   for (int n = 0; n < count; ++n) layers.push_back(layer *= high);
   return layers;
 }

@@ -84,8 +84,7 @@ std::vector<Rule> axis_rules() {
 Broken nothing_above(const Scene& scene) {
   const Column& column = scene.column;
   if (!column.grading || !column.graded_above) return {};
-  const bool fewer = !column.layers.empty() && double(column.layers.size()) < column.size[1] / column.cell(1) - 0.5;
-  if (fewer) return {};
+  if (!column.layers.empty() && long(column.layers.size()) < column.even_layers()) return {};
   return Broken({fmt::format("{:.4g}", *column.graded_above), fmt::format("{:.4g}", column.size[1])});
 }
 

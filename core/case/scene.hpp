@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -43,6 +44,8 @@ struct Column {
   [[nodiscard]] double cell(std::size_t axis) const {
     return axis == 1 && !layers.empty() ? layers.front() : size[axis] / cells[axis];
   }
+  /// Number of layers of the lowest cells' height, as without grading.
+  [[nodiscard]] long even_layers() const { return std::lround(size[1] / cell(1)); }
   /// Area of its cross-section at an end, m2.
   [[nodiscard]] double cross_section(ColumnFace end = ColumnFace::bottom) const;
   /// Volume below a height over cross_section(), m: the equivalent height in a uniform column. A tapered column

@@ -86,9 +86,7 @@ Grid block_of(const Grid& column, const std::shared_ptr<const Ranks>& ranks, int
 
 Grid grid_of(const Scene& scene, const std::shared_ptr<const Ranks>& ranks) {
   const auto meets_fluid = [&](const InnerWall& wall) { return scene.fluid.present() && wall.thickness > 0; };
-  const auto is_whole = [](const InnerWall& wall) {  // else a rule refuses it
-    return wall.from.size() == 2 && (wall.to.size() == 2 || wall.shape == WallShape::rod);
-  };
+  const auto is_whole = [](const InnerWall& wall) { return wall.from.size() == 2 && wall.to.size() == 2; };  // a rule
   const bool cut = std::any_of(scene.walls.begin(), scene.walls.end(), meets_fluid) &&
                    std::all_of(scene.walls.begin(), scene.walls.end(), is_whole);
   return grid_of(scene.column, ranks, cut ? std::make_shared<std::vector<InnerWall>>(scene.walls) : nullptr);

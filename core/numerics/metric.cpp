@@ -141,6 +141,14 @@ double open_faces_below(const Grid& grid, int layer) {
   return std::accumulate(open.begin(), open.end(), 0.0);
 }
 
+std::vector<double> areas_of_layers(const Grid& grid) {
+  std::vector<double> areas;
+  if (grid.metric && grid.metric->tapered())
+    for (int y = 0; y < grid.column_cells(1); ++y)
+      areas.push_back(open_cells_of_layer(grid, y) * grid.spacing[0] * grid.spacing[2]);
+  return areas;
+}
+
 void weigh_faces(const Grid& grid, FaceField& coefficient) {
   if (!grid.metric) return;
   constexpr double leak = 1e-9;

@@ -151,6 +151,8 @@ void for_each_open_row(const Grid& grid, const Box& box, Body&& body) {
 /// Open volume of a layer of the column, in lowest cells, and open area of the faces below it, in whole faces.
 [[nodiscard]] double open_cells_of_layer(const Grid& grid, int layer = 0);
 [[nodiscard]] double open_faces_below(const Grid& grid, int layer);
+/// Open areas of the layers of a column whose cross-section changes, by a taper or walls inside, m2; else empty.
+[[nodiscard]] std::vector<double> areas_of_layers(const Grid& grid);
 
 /// Multiplies face coefficients and a cell source by their open shares, over the distances of centres: the elliptic
 /// solvers assume equal cells. Closed faces between cells keep a billionth, so that no cell is isolated.

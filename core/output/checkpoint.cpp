@@ -206,7 +206,7 @@ void require_layers(const Grid& grid, const Checkpoint& checkpoint) {
   };
   if (layers_of(own) != layers_of(checkpoint))
     throw FileError(
-        "the checkpoint is of a column with other layers of cells: column.grading or what goes with it differs");
+        "the checkpoint is of a column with other layers of cells: column.grading, graded_above, size or cells differ");
 }
 
 void refuse_checkpoint(const std::string& reason) {

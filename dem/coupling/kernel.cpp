@@ -43,8 +43,7 @@ std::string smearing_warning(const core::Scene& scene, double width) {
   }
   return fmt::format(
       "the fluid sees the particles averaged over {:.3g} mm, in a bed of {:.3g} mm: near the top it sees a thinner "
-      "bed, "
-      "and its drag is some {:.0f} % too small; {}",
+      "bed, and its drag is some {:.0f} % too small; {}",
       1e3 * width, 1e3 * height, 100 * lost, advice);
 }
 

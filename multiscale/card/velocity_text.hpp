@@ -36,7 +36,7 @@ namespace polybed::multiscale {
                                     std::optional<double> most);
 
 /// Minimum fluidisation, terminal velocities and, in a gas, Geldart's classes. \param in_full  also by other laws, at
-/// other packings and by the other formula of the shape
+/// other packings and by the other formulas of the shape
 void add_velocities(const BedOfCase& bed, bool in_full, std::vector<std::string>& lines);
 
 }  // namespace polybed::multiscale

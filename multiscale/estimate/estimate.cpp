@@ -105,7 +105,7 @@ double disk_of(const core::Scene& scene, double cells, double particles, double 
   const double of_cell = 8 * (2 + species) + (1 + species) * (8 * dimensions + 12);
   const double of_slab = 8 * (3 + 3 * species);
   const double stored = rows(scene.run.until, *scene.output.every);
-  double bytes = stored * (file + cells * of_cell + scene.column.cells[1] * of_slab);
+  double bytes = stored * (file + cells * of_cell + double(scene.column.even_layers()) * of_slab);
   if (particles > 0) bytes += stored * (file + particle * particles);
   bytes += rows(scene.run.until, *scene.output.history_every) * history_row + 2 * state + picture;
   bytes += report_of(stored, cells, particles, species);

@@ -54,7 +54,7 @@ void add_fewer_dimensions(std::vector<Way>& ways, const core::Scene& scene) {
   if (column.is_round() && all_across)
     ways.push_back({fmt::format("column.shape = \"axisymmetric\", column.size = [radius, height], column.cells = "
                                 "[{}, {}]",
-                                (across + 1) / 2, std::lround(column.size[1] / column.cell(1))),
+                                (across + 1) / 2, column.even_layers()),
                     0.5 / deep, "all is alike around the axis: bubbles and eddies are rings", "literature"});
   else if (column.dimensions == 3 && !column.is_round())
     ways.push_back({"two dimensions: column.size = [width, height]", 1.0 / deep,

@@ -58,7 +58,7 @@ inline const Effect shape{
                       [](const core::Scene& scene) { return core::all_spheres(scene); }),
               rule_of("shape", {"effects.drag"}, "effects.shape = \"{}\" is a factor on the drag: give effects.drag",
                       [](const core::Scene& scene) { return !core::acts(scene, "drag"); })},
-    .number = "max |C_D(Re, sphericity)/C_D(Re, 1) - 1|",
+    .number = "max |drag at the sphericity/drag of spheres - 1|",
     .phrase = "the shape changes the drag by {} its value",
     .weigh = weigh_shape};
 

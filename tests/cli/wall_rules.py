@@ -81,7 +81,7 @@ ROUND_OF_MODELS = {
         *ROUND, wall([0.02, 0.1], [0.02, 0.15], "cylinder", 0.015)],
     '[[wall]] in a fluid and bed.start = "list:FILE" or "checkpoint:FILE" cannot be combined yet in polybed dem: particles could begin inside '
     'a wall; use "mixed"': [wall([0.02, 0.1], [0.06, 0.1], thickness=0.02), "bed.start=list:particles.csv"],
-    '[[wall]] in a fluid and dem.own_share = "removed" cannot be combined yet; use dem.own_share = "kept"': [
+    '[[wall]] and dem.own_share = "removed" cannot be combined yet; use dem.own_share = "kept"': [
         wall([0.02, 0.1], [0.06, 0.1], thickness=0.02), "dem.own_share=removed"],
     'column.shape = "cylinder" and dem.own_share = "removed" cannot be combined yet; use dem.own_share = "kept"': [
         *ROUND, "dem.own_share=removed"],

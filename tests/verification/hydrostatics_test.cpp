@@ -5,6 +5,7 @@
 #include "core/numerics/operators.hpp"
 #include "core/output/checkpoint.hpp"
 #include "scenes/record.hpp"
+#include "scenes/settled_glass.hpp"
 #include "tfm/state_layout.hpp"
 
 namespace polybed::scenes {
@@ -102,31 +103,10 @@ class BedAtRest : public testing::TestWithParam<const char*> {};
 
 /// 0.1 m of glass of 0.5 mm in water or air, cells of 3 mm, and a share of a further cell.
 core::Scene filled_to(double share, bool gas, const char* integrator) {
-  core::Scene scene = gas ? uniform_bed(0.5e-3, 2500, 1.2, 1.8e-5, 0.58, 40, 0.12)
-                          : uniform_bed(0.5e-3, 2500, 998.207, 1.00157e-3, 0.58, 40, 0.12);
-  scene.column.closed = true;
-  scene.effects["solids_stress"] = "frictional";
-  scene.bed.start = {core::StartKind::settled};
+  core::Scene scene = settled_glass(gas);
   scene.bed.static_height = 0.099 + 0.003 * share;
-  scene.tfm.max_packing = 0.64;
   scene.tfm.integrator = core::choice_of<core::TfmIntegrator>(integrator);
   return scene;
-}
-
-/// The greatest velocity of the fluid, and of the solids on faces beside a cell with more than 1e-6 of them.
-double greatest_beside_solids(const tfm::Model& model) {
-  const core::Grid& grid = model.constants().grid;
-  const tfm::Fields& fields = model.fields();
-  const double* phi = fields.solids_fraction.data();
-  double most = 0;
-  core::for_each_row(grid, core::interior_faces(grid, 1), [&](core::Index begin, core::Index end) {
-    for (core::Index f = begin; f < end; ++f) {
-      most = std::max(most, std::abs(fields.fluid.velocity[1][std::size_t(f)]));
-      if (std::max(phi[f], phi[f - grid.stride(1)]) > 1e-6)
-        most = std::max(most, std::abs(fields.solids.velocity[0][1][std::size_t(f)]));
-    }
-  });
-  return most;
 }
 
 // However far the topmost cell is filled. 1e-10 m/s and 1e-6 of the weight are this project's goals; found 2e-11 and

@@ -6,6 +6,7 @@
 
 #include "core/numerics/operators.hpp"
 #include "scenes/record.hpp"
+#include "scenes/settled_glass.hpp"
 #include "tfm/explicit_problem.hpp"
 
 namespace polybed::scenes {
@@ -160,12 +161,7 @@ TEST_P(FormB, AParticleAloneFallsAsFast) {
 
 // As BedAtRest of hydrostatics_test.cpp, and its goal.
 TEST_P(FormB, ASettledBedRests) {
-  core::Scene scene = uniform_bed(0.5e-3, 2500, 998.207, 1.00157e-3, 0.58, 40, 0.12);
-  scene.column.closed = true;
-  scene.effects["solids_stress"] = "frictional";
-  scene.bed.start = {core::StartKind::settled};
-  scene.bed.static_height = 0.1;
-  scene.tfm.max_packing = 0.64;
+  core::Scene scene = settled_glass();
   scene.tfm.form = core::PressureForm::B;
   scene.tfm.integrator = core::choice_of<core::TfmIntegrator>(GetParam());
   core::Timers timers;
