@@ -62,12 +62,13 @@ class OpenEntries {
 };
 }  // namespace
 
-double smoothing_width(double smallest_cell, double largest_diameter, std::size_t particles) {
+double smoothing_width(double smallest_cell, double largest, double mean, std::size_t particles) {
   const bool single = particles < fewest_of_a_bed;
+  constexpr double plain = 1.5;
   // In cells of 2.5 diameters a single sphere disturbs the fluid in its own cell so much that it falls 4.7 % too fast,
   // with the wide kernel 0.6 %.
-  if (smallest_cell >= (single ? 5 : 1.5) * largest_diameter) return 0;
-  return (single ? 6 : 4) * largest_diameter;
+  if (smallest_cell >= (single ? 5 : plain) * largest) return 0;
+  return single ? 6 * largest : std::max(4 * mean, plain * largest);
 }
 
 double smoothing_time(double width) { return width * width / (16 * std::numbers::ln2); }

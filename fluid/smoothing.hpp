@@ -14,9 +14,11 @@ namespace polybed::fluid {
 inline constexpr std::size_t fewest_of_a_bed = 10;
 
 /// The default width of the kernel, m: 0, plain weights, if the smallest cell is at least 1.5 of the largest diameters,
-/// else 4 of these. For single particles (fewer than fewest_of_a_bed), whose own disturbance of the fluid must not be
-/// mistaken for its speed, 6 diameters if cells are smaller than 5.
-[[nodiscard]] double smoothing_width(double smallest_cell, double largest_diameter, std::size_t particles);
+/// else 4 of the mean diameters and at least 1.5 of the largest, the width that plain weights may have. For single
+/// particles (fewer than fewest_of_a_bed), whose own disturbance of the fluid must not be mistaken for its speed, 6 of
+/// the largest diameters if cells are smaller than 5.
+/// \param mean  Sauter's diameter, m
+[[nodiscard]] double smoothing_width(double smallest_cell, double largest, double mean, std::size_t particles);
 
 /// tau, m2, in which diffusion turns a point into the Gaussian exp(-r^2/(4 tau)) of full width w at half height:
 /// exp(-w^2/(16 tau)) = 1/2.

@@ -84,8 +84,9 @@ Table dem_table() {
               help("averaging of particles for the fluid: bilinear over the cells around them; diffusion: with its own "
                    "width; auto: diffusion in cells below 1.5 largest diameters, for fewer than 10 particles 5")),
           key(&Dem::kernel_width, "kernel_width", dimension::length, above(0, 10),
-              help("full width of the diffusion kernel at half height; default: 4 largest diameters, for fewer than 10 "
-                   "particles 6")),
+              help(
+                  "full width of the diffusion kernel at half height; default: 4 mean (Sauter) diameters, at least 1.5 "
+                  "largest ones, and 6 of these for fewer than 10 particles")),
           key(&Dem::own_share, "own_share",
               help("a particle's own share in the averages that set its drag, less the neighbours that it keeps away: "
                    "kept as in the thesis, or removed, as drag laws are made from means of the mixture")),

@@ -236,8 +236,9 @@ class Check(Bed):
                      r"kernel bilinear: the smallest cell has 1.67 of the largest diameters"):
             self.assertRegex(text, line)
         finer = self.ends(DONE, "check", self.case, "--details", "--set", "column.cells=[6,36]").stdout
-        self.assertIn("kernel diffusion, 8 mm wide: 4 of the largest diameters, as the smallest cell has only 0.833", finer)
-        smeared = "the fluid sees the particles averaged over 8 mm"
+        # 600 of 0.8 mm and 30 of 2 mm: 4 (307 + 240)/(307/0.8 + 240/2) mm
+        self.assertIn("kernel diffusion, 4.34 mm wide: 2.2 of the largest diameters, as the smallest cell has only 0.833", finer)
+        smeared = "the fluid sees the particles averaged over 4.34 mm"
         self.assertIn(smeared, finer)
         for other in (text, self.ends(DONE, "check", self.case, "--details", "--set", "column.cells=[6,36]", "--set", "dem.kernel_width=8 mm").stdout):
             self.assertNotIn(smeared, other)

@@ -364,13 +364,16 @@ TEST(Smoothing, OfNoWidthIsAbsent) {
 }
 
 TEST(Smoothing, WidthsUnlessTheCaseSays) {
-  EXPECT_EQ(smoothing_width(1.5, 1, 1000), 0);  // cells that average enough
-  EXPECT_EQ(smoothing_width(1.4, 1, 1000), 4);
-  EXPECT_EQ(smoothing_width(1.4, 1, 10), 4);
-  EXPECT_EQ(smoothing_width(1.4, 1, 9), 6);
-  EXPECT_DOUBLE_EQ(smoothing_width(5e-3, 9.5e-3, 1), 57e-3);
-  EXPECT_EQ(smoothing_width(4.9, 1, 1), 6);
-  EXPECT_EQ(smoothing_width(5, 1, 1), 0);
+  EXPECT_EQ(smoothing_width(1.5, 1, 1, 1000), 0);  // cells that average enough
+  EXPECT_EQ(smoothing_width(1.4, 1, 1, 1000), 4);
+  EXPECT_EQ(smoothing_width(1.4, 1, 1, 10), 4);
+  EXPECT_EQ(smoothing_width(1.4, 1, 0.5, 1000), 2);  // four of the mean diameter
+  EXPECT_EQ(smoothing_width(1.4, 1, 0.25, 1000),
+            1.5);  // the width of plain weights in the smallest cells they may have
+  EXPECT_EQ(smoothing_width(1.4, 1, 1, 9), 6);
+  EXPECT_DOUBLE_EQ(smoothing_width(5e-3, 9.5e-3, 9.5e-3, 1), 57e-3);
+  EXPECT_EQ(smoothing_width(4.9, 1, 1, 1), 6);
+  EXPECT_EQ(smoothing_width(5, 1, 1, 1), 0);
 }
 
 TEST(Smoothing, TimeIsThatOfTheWidthAtHalfHeight) {
