@@ -19,10 +19,10 @@ namespace polybed::core {
 
 namespace exact {
 
-constexpr std::size_t lanes = 8;
+constexpr std::size_t lanes = 4;  ///< of AVX2: g++ 12 compares lane by lane what fills more than one register
 using Lanes = double __attribute__((vector_size(lanes * sizeof(double))));
 
-[[gnu::always_inline]] inline Lanes eight(const double* from) {
+[[gnu::always_inline]] inline Lanes lanes_of(const double* from) {
   Lanes values;
   std::memcpy(&values, from, sizeof values);
   return values;
@@ -55,33 +55,41 @@ struct MaskedSquare {
   }
 };
 
-/// Calls act with eight terms at a time; zeros fill up the last call.
+/// Independent accumulators: one alone waits for the latency of each operation.
+constexpr std::size_t chains = 4;
+
+/// Calls act with the terms, some at a time, and the accumulator to which they belong; zeros fill up the last call.
 template <class Term, class Act, class... Array>
-[[gnu::always_inline]] inline void for_each_eight(std::size_t n, Act&& act, const Array*... array) {
+[[gnu::always_inline]] inline void for_all(std::size_t n, Act&& act, const Array*... array) {
   std::size_t i = 0;
-  for (; i + lanes <= n; i += lanes) act(Term::of(eight(array + i)...));
+  for (; i + chains * lanes <= n; i += chains * lanes) {
+#pragma GCC unroll 4
+    for (std::size_t c = 0; c < chains; ++c) act(c, Term::of(lanes_of(array + i + c * lanes)...));
+  }
+  for (; i + lanes <= n; i += lanes) act(0, Term::of(lanes_of(array + i)...));
   if (i == n) return;
   const auto rest = [&](const double* from) {
     std::array<double, lanes> padded{};
     std::copy_n(from + i, n - i, padded.begin());
-    return eight(padded.data());
+    return lanes_of(padded.data());
   };
-  act(Term::of(rest(array)...));
+  act(0, Term::of(rest(array)...));
 }
 
 /// The greatest magnitude; NaN is ignored.
 template <class Term, class... Array>
 double greatest_of(std::size_t n, const Array*... array) {
-  Lanes most{};
-  for_each_eight<Term>(
+  std::array<Lanes, chains> most{};
+  for_all<Term>(
       n,
-      [&](const Lanes& term) {
+      [&](std::size_t c, const Lanes& term) {
         const Lanes size = magnitude(term);
-        most = size > most ? size : most;
+        most[c] = size > most[c] ? size : most[c];
       },
       array...);
   double greatest = 0;
-  for (std::size_t k = 0; k < lanes; ++k) greatest = std::max(greatest, most[k]);
+  for (const Lanes& of_chain : most)
+    for (std::size_t k = 0; k < lanes; ++k) greatest = std::max(greatest, of_chain[k]);
   return greatest;
 }
 
@@ -89,20 +97,21 @@ double greatest_of(std::size_t n, const Array*... array) {
 /// place of `second`. Both numbers are 1.5 times a power of 2.
 template <class Term, class... Array>
 std::array<double, 2> parts_of(std::size_t n, double first, double second, const Array*... array) {
-  Lanes of_first{}, of_second{};
-  for_each_eight<Term>(
+  std::array<Lanes, chains> of_first{}, of_second{};
+  for_all<Term>(
       n,
-      [&](const Lanes& term) {
+      [&](std::size_t c, const Lanes& term) {
         const Lanes part = (first + term) - first;
-        of_first += part;
-        if constexpr (Term::both_parts) of_second += (second + (term - part)) - second;
+        of_first[c] += part;
+        if constexpr (Term::both_parts) of_second[c] += (second + (term - part)) - second;
       },
       array...);
   std::array<double, 2> sums{};
-  for (std::size_t k = 0; k < lanes; ++k) {
-    sums[0] += of_first[k];
-    sums[1] += of_second[k];
-  }
+  for (std::size_t c = 0; c < chains; ++c)
+    for (std::size_t k = 0; k < lanes; ++k) {
+      sums[0] += of_first[c][k];
+      sums[1] += of_second[c][k];
+    }
   return sums;
 }
 

@@ -93,4 +93,7 @@ def phases(stress):
          "runs": liquid_runs((1e-2, 5e-3), (1e-2,)), "finest": {}, "goal": 20.0, "rate_goal": 0.4,
          "differences": LIQUID_DIFFERENCES},
         {"name": "gas", "bed": GAS_BED, "begin": 0.0, "end": 0.1, "at": (0.05, 0.1), "every": 0.05, "runs": gas,
-         "finest": finest_gas, "goal": 5.0, "differences": GAS_DIFFERENCES.format(stress=stress)}]
+         "finest": finest_gas, "goal": 5.0, "differences": GAS_DIFFERENCES.format(stress=stress)},
+        {"name": "gas developed", "bed": GAS_BED, "begin": 1.0, "end": 1.5, "at": (0.5, 1.0, 1.5), "every": 0.5,
+         "runs": {name: gas[name] for name in ("polybed", "polybed, rtol 1e-4", "OpenFOAM, 1 ms", "OpenFOAM, 0.5 ms")},
+         "finest": {}, "goal": 4.0, "differences": GAS_DIFFERENCES.format(stress=stress)}]
