@@ -12,9 +12,10 @@ using core::Index;
 
 void FirstOrderFallback::see(const StateLayout& layout, std::span<const double> y, const StressEffect* stress) {
   const core::Grid& grid = constants_.grid;
+  const double least = least_packing(constants_, stress);
   std::vector<std::size_t> out;
   for (std::size_t cell = 0; cell < grid.cell_count(); ++cell)
-    if (const CellSolids is = solids_of(constants_, layout, y, cell, stress);
+    if (const CellSolids is = solids_of(constants_, layout, y, cell, stress, least);
         is.least < least_ || is.above_packing > overshoot)
       out.push_back(cell);
   if (left_.empty()) {  // the same on all ranks

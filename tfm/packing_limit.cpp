@@ -26,8 +26,20 @@ double above_greatest(const Constants& constants, double phi, std::span<const do
 
 }  // namespace
 
+double least_packing(const Constants& constants, const StressEffect* stress) {
+  if (stress == nullptr) return closures::crystal_packing;
+  double least = 1;
+  std::array<double, most_species> share{};
+  for (std::size_t j = 0; j < constants.species(); ++j) {
+    share.fill(0);
+    share[j] = 1;
+    least = std::min(least, stress->packing_of({share.data(), constants.species()}));
+  }
+  return least;
+}
+
 CellSolids solids_of(const Constants& constants, const StateLayout& layout, std::span<const double> y, std::size_t cell,
-                     const StressEffect* stress) {
+                     const StressEffect* stress, double least_packing) {
   std::array<double, most_species> share{};
   const std::size_t n = constants.species();
   // The fractions come first in a state, species by species.
@@ -38,6 +50,7 @@ CellSolids solids_of(const Constants& constants, const StateLayout& layout, std:
     sum += fraction(j);
     seen += std::max(fraction(j), 0.0);
   }
+  if (sum <= least_packing) return {least, sum - least_packing};
   for (std::size_t j = 0; j < n; ++j)
     share[j] = (std::max(fraction(j), 0.0) + composition_floor * constants.bed_share[j]) / seen;
   return {least, above_greatest(constants, sum, {share.data(), n}, stress)};
@@ -60,10 +73,11 @@ double packing_above(const Constants& constants, const Fields& fields, const Str
 void require_packing(const Constants& constants, const StateLayout& layout, std::span<const double> y, double t,
                      const StressEffect* stress) {
   const core::Grid& grid = constants.grid;
+  const double least = least_packing(constants, stress);
   double most = 0;
   std::size_t where = 0;
   for (std::size_t cell = 0; cell < grid.cell_count(); ++cell) {
-    const double above = solids_of(constants, layout, y, cell, stress).above_packing;
+    const double above = solids_of(constants, layout, y, cell, stress, least).above_packing;
     if (above > most) {
       most = above;
       where = cell;
