@@ -5,11 +5,12 @@ A bed is a dict of SI values: size (width, height), cells (nx, ny), fluid {name,
 solids fraction when packed, if it is not that of the start; a gas bed also max_packing and restitution. The liquid bed
 is for reactingMultiphaseEulerFoam (any number of solids, but that program has no solids stress), the gas bed for
 twoPhaseEulerFoam (one species, kinetic theory). y is up, the column one cell deep, unless the bed has depth, layers of
-cells along it, and patches {name: OpenFOAM's type} of its own.
+cells along it between walls, or patches {name: OpenFOAM's type} of its own.
 
 Settings: program, until, step, every (s, between stored fields), drag (OpenFOAM's name), outer (iterations of a time
 step), alpha_steps (parts of a time step in which the fractions move), and for the gas bed gas (constant | perfect).
 """
+import functools
 from pathlib import Path
 
 import numpy as np
@@ -36,17 +37,17 @@ def write(path, content, kind="dictionary"):
     path.write_text(text(head) + (content if isinstance(content, str) else text(content)))
 
 
-def write_field(directory, name, dimensions, internal, boundary, **more):
-    """internal: a number, a vector, or one of them per cell (y by x); boundary: {patch: {...}}."""
+def write_field(directory, name, dimensions, internal, boundary, layers=1, **more):
+    """internal: a number, a vector, or one of them per cell (y by x), alike in all layers; boundary: {patch: {...}}."""
     vector = isinstance(internal, tuple) or (isinstance(internal, np.ndarray) and internal.ndim == 3)
     kind, item = ("volVectorField", "vector") if vector else ("volScalarField", "scalar")
     if isinstance(internal, np.ndarray):
-        values = [text(v) for v in (internal.reshape(-1, 3) if vector else internal.ravel()).tolist()]
+        values = layers * [text(v) for v in (internal.reshape(-1, 3) if vector else internal.ravel()).tolist()]
         internal = f"nonuniform List<{item}>\n{len(values)}\n(\n" + "\n".join(values) + "\n)"
     else:
         internal = f"uniform {text(internal)}"
     patches = {patch: boundary.get(patch, boundary.get("others")) for patch in PATCHES}
-    patches["sides"] = boundary.get("sides", {"type": "empty"})
+    patches["sides"] = boundary.get("sides", patches["walls"] if layers > 1 else {"type": "empty"})
     head = {"dimensions": f"[{dimensions} 0 0 0]", "internalField": internal}
     write(directory / "0" / name, head | more | {"boundaryField": patches}, kind)
 
@@ -62,7 +63,7 @@ def write_mesh(directory, bed):
     corners = [(x, y, z) for z in (0.0, depth) for x, y in around]
     faces = {"inlet": [(0, 1, 5, 4)], "outlet": [(3, 7, 6, 2)], "walls": [(0, 4, 7, 3), (1, 2, 6, 5)],
              "sides": [(0, 3, 2, 1), (4, 5, 6, 7)]}
-    kinds = {"walls": "wall", "sides": "empty"} | bed.get("patches", {})
+    kinds = {"walls": "wall", "sides": "wall" if layers > 1 else "empty"} | bed.get("patches", {})
     boundary = " ".join(f"{patch} {{ type {kinds.get(patch, 'patch')}; faces {text(f)}; }}"
                         for patch, f in faces.items())
     block = f"(hex {text(tuple(range(8)))} {text((nx, ny, layers))} simpleGrading (1 1 1))"
@@ -124,25 +125,26 @@ def start_fractions(bed, solid):
 def write_start(directory, bed, solids_wall):
     """Bed at rest, the volume flux of the inlet everywhere; at walls no slip for the fluid, solids_wall for solids."""
     fluid, still = bed["fluid"]["name"], (0.0, 0.0, 0.0)
+    field = functools.partial(write_field, directory, layers=bed.get("layers", 1))
     up, free = (0.0, float(bed["velocity"]), 0.0), {"others": {"type": "zeroGradient"}}
     fractions = {s["name"]: start_fractions(bed, s) for s in bed["solids"]}
     fractions[fluid] = 1 - sum(fractions.values())
     for name, values in fractions.items():
-        write_field(directory, f"alpha.{name}", "0 0 0 0", values, free)
+        field(f"alpha.{name}", "0 0 0 0", values, free)
         inlet = {"inlet": fixed(TEMPERATURE)} if name == fluid else {}
-        write_field(directory, f"T.{name}", "0 0 0 1", TEMPERATURE, free | inlet)
+        field(f"T.{name}", "0 0 0 1", TEMPERATURE, free | inlet)
     for solid in bed["solids"]:
-        write_field(directory, f"U.{solid['name']}", "0 1 -1 0", still,
-                    {"others": fixed(still), "walls": {"type": solids_wall}})
+        field(f"U.{solid['name']}", "0 1 -1 0", still,
+              {"others": fixed(still), "walls": {"type": solids_wall}})
     inside = bed["velocity"] / fractions[fluid][..., None] * np.array([0.0, 1.0, 0.0])
-    write_field(directory, f"U.{fluid}", "0 1 -1 0", inside, {
+    field(f"U.{fluid}", "0 1 -1 0", inside, {
         "inlet": {"type": "interstitialInletVelocity", "inletVelocity": f"uniform {text(up)}",
                   "alpha": f"alpha.{fluid}", "value": f"uniform {text(tuple(inside[0, 0].tolist()))}"},
         "outlet": {"type": "pressureInletOutletVelocity", "phi": f"phi.{fluid}", "value": f"uniform {text(up)}"},
         "walls": {"type": "noSlip"}})
     value = {"value": f"uniform {PRESSURE:g}"}
-    write_field(directory, "p", "1 -1 -2 0", PRESSURE, {"others": {"type": "calculated"} | value})
-    write_field(directory, "p_rgh", "1 -1 -2 0", PRESSURE, {
+    field("p", "1 -1 -2 0", PRESSURE, {"others": {"type": "calculated"} | value})
+    field("p_rgh", "1 -1 -2 0", PRESSURE, {
         "others": {"type": "fixedFluxPressure"} | value,
         "outlet": {"type": "prghPressure", "p": f"uniform {PRESSURE:g}"} | value})
 

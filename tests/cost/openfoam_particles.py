@@ -136,7 +136,7 @@ def solve(directory, bed, begin, end, limit):
     clock = openfoam_run.read_log(directory / "log", {})["clock"]
     _, last = openfoam_run.times(directory)[-1]
     (nx, ny), layers = bed["cells"], bed["layers"]
-    kinematic = openfoam_run.read_scalar(last / "p", (nx, ny * layers)).reshape(layers, ny, nx).mean(axis=(0, 2))
+    kinematic = openfoam_run.read_scalar(last / "p", (nx, ny), layers).mean(axis=1)
     places = read_places(last)
     if len(places) != len(bed["places"]):
         raise openfoam_run.Failed(f"{len(places)} of {len(bed['places'])} particles are left")

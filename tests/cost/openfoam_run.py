@@ -55,17 +55,17 @@ def solve(program, directory, limit):
     return run([program], directory, Path(directory) / "log", limit, environment())
 
 
-def read_scalar(path, cells):
-    """An ASCII volScalarField as an array of y by x."""
+def read_scalar(path, cells, layers=1):
+    """An ASCII volScalarField as an array of y by x, its mean over the layers."""
     content = Path(path).read_text()
     uniform = re.search(r"internalField\s+uniform\s+(\S+);", content)
     if uniform:
         return np.full(cells[::-1], float(uniform.group(1)))
     found = re.search(r"internalField\s+nonuniform\s+List<scalar>\s*(\d+)\s*\(([^)]*)\)", content)
     values = np.array(found.group(2).split(), dtype=float)
-    if len(values) != int(found.group(1)) or len(values) != cells[0] * cells[1]:
-        raise Failed(f"{path} holds {len(values)} values, not {found.group(1)} or {cells[0] * cells[1]}")
-    return values.reshape(cells[::-1])
+    if len(values) != int(found.group(1)) or len(values) != layers * cells[0] * cells[1]:
+        raise Failed(f"{path} holds {len(values)} values, not {found.group(1)} or {layers * cells[0] * cells[1]}")
+    return values.reshape(layers, *cells[::-1]).mean(axis=0)
 
 
 def times(directory):
@@ -80,12 +80,12 @@ def rows(directory, bed):
 
 
 def measures(folder, bed):
-    height = bed["size"][1] / bed["cells"][1]
     """Definitions of docs/reference/measures.md on the lateral averages; volume_<name>: its share of the column."""
+    height, layers = bed["size"][1] / bed["cells"][1], bed.get("layers", 1)
     names = [s["name"] for s in bed["solids"]]
-    profiles = {name: read_scalar(folder / f"alpha.{name}", bed["cells"]).mean(axis=1) for name in names}
+    profiles = {name: read_scalar(folder / f"alpha.{name}", bed["cells"], layers).mean(axis=1) for name in names}
     y = (np.arange(bed["cells"][1]) + 0.5) * height
-    pressure = read_scalar(folder / "p", bed["cells"]).mean(axis=1) - PRESSURE + bed["fluid"]["density"] * 9.81 * y
+    pressure = read_scalar(folder / "p", bed["cells"], layers).mean(axis=1) - PRESSURE + bed["fluid"]["density"] * 9.81 * y
     found = {"bed_height_m": bed_height(sum(profiles.values()), height), "pressure_drop_Pa": pressure_drop(pressure)}
     for name, phi in profiles.items():
         found |= {f"centre_{name}_m": float(np.dot(y, phi) / phi.sum()), f"volume_{name}": float(phi.mean())}

@@ -2,15 +2,18 @@
 
 WATER = {"name": "water", "density": 999.1, "viscosity": 1.138e-3}
 SPECIES = (("fine", 0.807e-3, 1395.0, 0.569), ("coarse", 2.010e-3, 1170.0, 0.431))
+THREE = (("fine", 0.807e-3, 1395.0, 0.4), ("middle", 1.4e-3, 1250.0, 0.3), ("coarse", 2.010e-3, 1170.0, 0.3))
 
 
-def system_b(fraction):
+def system_b(fraction, species=SPECIES):
     """Matsuura and Akehata in water at 15 degC, mixed at this solids fraction: 20 x 200 cells of 3 mm, 30 mm/s."""
-    solids = [{"name": n, "diameter": d, "density": r, "fraction": x * fraction} for n, d, r, x in SPECIES]
+    solids = [{"name": n, "diameter": d, "density": r, "fraction": x * fraction} for n, d, r, x in species]
     return {"size": (0.06, 0.6), "cells": (20, 200), "fluid": WATER, "velocity": 0.03, "solids": solids,
             "height": 0.066 * 0.62 / fraction, "settled": 0.62}
 
 
+# 20 x 20 x 100 cells between four walls.
+DEEP = system_b(0.2) | {"size": (0.06, 0.3), "cells": (20, 100), "depth": 0.06, "layers": 20}
 # OpenFOAM's fluidisedBed: 6000 cells of 5 mm, 0.3 mm particles, bed at rest at 0.55; all at 300 K.
 GAS_BED = {"size": (0.15, 1.0), "cells": (30, 200), "fluid": {"name": "air", "density": 1.1588, "viscosity": 1.84e-5},
            "velocity": 0.25, "height": 0.5, "max_packing": 0.62, "restitution": 0.8,
@@ -92,6 +95,11 @@ def phases(stress):
          "runs": packed, "finest": FINEST_LIQUID, "goal": 20.0, "plug": True, "differences": LIQUID_DIFFERENCES},
         {"name": "liquid expanded", "bed": system_b(0.2), "begin": 5.0, "end": 10.0, "at": (2.5, 5.0), "every": 2.5,
          "runs": liquid_runs((1e-2, 5e-3), (1e-2,)), "finest": {}, "goal": 20.0, "rate_goal": 0.4,
+         "differences": LIQUID_DIFFERENCES},
+        {"name": "liquid in 3-D", "bed": DEEP, "begin": 1.0, "end": 2.0, "at": (1.0, 2.0), "every": 1.0,
+         "runs": liquid_runs((5e-3,), ()), "finest": {}, "goal": 12.0, "differences": LIQUID_DIFFERENCES},
+        {"name": "three species", "bed": system_b(0.2, THREE), "begin": 5.0, "end": 10.0, "at": (5.0, 10.0),
+         "every": 5.0, "runs": liquid_runs((5e-3,), ()), "finest": {}, "goal": 15.0,
          "differences": LIQUID_DIFFERENCES},
         {"name": "gas", "bed": GAS_BED, "begin": 0.0, "end": 0.1, "at": (0.05, 0.1), "every": 0.05, "runs": gas,
          "finest": finest_gas, "goal": 5.0, "differences": GAS_DIFFERENCES.format(stress=stress)},

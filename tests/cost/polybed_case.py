@@ -9,8 +9,10 @@ from openfoam_run import run
 def text(bed, settings):
     """A case file of the same bed; settings: effects {role: law}, rtol, integrator, until, every, and more tfm keys."""
     share, total = [s["fraction"] for s in bed["solids"]], sum(s["fraction"] for s in bed["solids"])
-    tables = [("title", '"the same bed as another program\'s"'), ("[column]",), ("size", list(bed["size"])),
-              ("cells", list(bed["cells"])), ("[fluid]",), ("name", quoted("fluid")),
+    size, cells = list(bed["size"]), list(bed["cells"])
+    if "layers" in bed:  # the depth is the second axis
+        size[1:1], cells[1:1] = [bed["depth"]], [bed["layers"]]
+    tables = [("title", '"the same bed as another program\'s"'), ("[column]",), ("size", size), ("cells", cells), ("[fluid]",), ("name", quoted("fluid")),
               ("density", bed["fluid"]["density"]), ("viscosity", bed["fluid"]["viscosity"])]
     for solid in bed["solids"]:
         tables += [("[[species]]",), ("name", quoted(solid["name"])), ("diameter", solid["diameter"]),

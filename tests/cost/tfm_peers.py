@@ -196,7 +196,7 @@ def equal_error(kind, mine, peers, goal):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("program", type=Path)
-    parser.add_argument("--phase", action="append", help="liquid packed | liquid expanded | gas | gas developed; default: all")
+    parser.add_argument("--phase", action="append", help="as in peer_beds.py; default: all")
     parser.add_argument("--repeat", type=int, default=3, help="of runs below 15 CPU s")
     parser.add_argument("--reference", action="store_true", help="also runs on cells of half the size")
     parser.add_argument("--solids-stress", default="frictional", help="of polybed's gas bed: frictional | kinetic")

@@ -102,8 +102,8 @@ double velocity_at(const std::vector<Moment>& moments, double time) {
 
 const Oil e1{970, 0.373, 0.03829, 0.947}, e4{960, 0.058, 0.12839, 0.955};
 
-// 3 % were asked; 3.4 % too slow on 7.5 cells per diameter, 4.0 % on 15. At the measured velocity the weight is 1.360 of
-// Stokes' drag, while Stokes flow has 1.386 between these walls (1.903 of Happel and Bart, Appl. Sci. Res. 29 (1974)
+// 3 % were asked; 3.4 % too slow on 7.5 cells per diameter, 4.0 % on 15. At the measured velocity the weight is 1.360
+// of Stokes' drag, while Stokes flow has 1.386 between these walls (1.903 of Happel and Bart, Appl. Sci. Res. 29 (1974)
 // 241, with the higher terms of a round tube), and inertia adds to it: hence the upper bound.
 TEST(SettlingSphere, GreatestVelocityAtReynoldsNumber1) {
   const double ratio = greatest(fall(e1, 50, 0.02)) / e1.alone;
