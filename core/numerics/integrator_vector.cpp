@@ -19,6 +19,10 @@ void linear_sum_of(double a, const double* x, double b, const double* y, double*
   for (std::size_t i = 0; i < n; ++i) z[i] = a * x[i] + b * y[i];
 }
 
+void add_three(const double* c, const double* x, const double* y, const double* w, double* z, std::size_t n) {
+  for (std::size_t i = 0; i < n; ++i) z[i] = ((z[i] + c[0] * x[i]) + c[1] * y[i]) + c[2] * w[i];
+}
+
 void scale_of(double c, const double* x, double* z, std::size_t n) {
   for (std::size_t i = 0; i < n; ++i) z[i] = c * x[i];
 }
@@ -50,7 +54,7 @@ void scale(double c, N_Vector x, N_Vector z) {
   in_vectors<scale_of>(c, entries(x).data(), entries(z).data(), entries(z).size());
 }
 
-/// z = sum c_k x_k; z can be x_0. Adds two terms per pass, in blocks that stay in the cache.
+/// z = sum c_k x_k; z can be x_0. Adds three terms per pass, in blocks that stay in the cache.
 int linear_combination(int count, double* c, N_Vector* x, N_Vector z) {
   constexpr std::size_t block = 2048;
   const std::span<double> to = entries(z);
@@ -63,7 +67,9 @@ int linear_combination(int count, double* c, N_Vector* x, N_Vector z) {
       continue;
     }
     in_vectors<linear_sum_of>(c[0], term(0), c[1], term(1), out, n);
-    for (int k = 2; k < count; ++k) in_vectors<linear_sum_of>(1.0, out, c[k], term(k), out, n);
+    int k = 2;
+    for (; k + 3 <= count; k += 3) in_vectors<add_three>(c + k, term(k), term(k + 1), term(k + 2), out, n);
+    for (; k < count; ++k) in_vectors<linear_sum_of>(1.0, out, c[k], term(k), out, n);
   }
   return 0;
 }
