@@ -6,6 +6,7 @@
 #include <span>
 
 #include "core/numerics/ranks.hpp"
+#include "dem/several.hpp"
 
 namespace polybed::dem {
 
@@ -26,16 +27,23 @@ class EnergySum {
     part_ += std::int64_t((units - double(whole)) * parts);
     carry();
   }
-  /// The same for many, fewer than 2^33, times `per_energy`; none waits for the previous one.
+  /// The same for many, fewer than 2^25, times `per_energy`: in doubles if these contain each sum exactly.
   void add(std::span<const double> energies, double per_energy) {
-    std::int64_t whole = 0, part = 0;
-    for (const double energy : energies) {
-      const double units = energy * per_energy;
-      const auto cut = std::int64_t(units);
-      whole += cut;
-      part += std::int64_t((units - double(cut)) * parts);
+    const std::size_t in_fours = energies.size() / 4 * 4;
+    Four all{}, wholes{}, some{};
+    for (std::size_t n = 0; n < in_fours; n += 4) {
+      Four units;
+      get_four(energies.data() + n, units);
+      units *= per_energy;
+      const Four size = units < 0 ? -units : units, whole = cut(size), part = cut((size - whole) * parts);
+      all += size;
+      wholes += units < 0 ? -whole : whole;
+      some += units < 0 ? -part : part;
     }
-    add(EnergySum(whole, part));
+    const bool exact = all[0] + all[1] + all[2] + all[3] < 0x1p52;
+    if (exact)
+      for (std::size_t k = 0; k < 4; ++k) add(EnergySum(std::int64_t(wholes[k]), std::int64_t(some[k])));
+    for (const double energy : energies.subspan(exact ? in_fours : 0)) add(energy * per_energy);
   }
   void add(const EnergySum& other) {
     whole_ += other.whole_;
@@ -50,6 +58,11 @@ class EnergySum {
   bool operator==(const EnergySum&) const = default;
 
  private:
+  /// The whole part of 0 <= x < 2^52.
+  [[gnu::always_inline]] static Four cut(const Four& x) {
+    const Four near = x + 0x1p52 - 0x1p52;
+    return near > x ? near - 1 : near;
+  }
   void carry() {
     whole_ += part_ >> part_bits;
     part_ &= (std::int64_t(1) << part_bits) - 1;

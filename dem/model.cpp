@@ -151,14 +151,17 @@ void Model::step(double stop) {
   constexpr std::int64_t all_timed = 64, sampled = 16;  // number of initial steps, and then one in this many
   timed_ = steps_ < all_timed ? 1 : (steps_ % sampled == 0 ? std::uint64_t(sampled) : 0);
   ++steps_;
+  std::optional<Verlet::Drift> next;
   if (!held_)
-    move(limits_.dt);
+    next = move(limits_.dt);
   else if (coupling_)
     coupling_->hold(particles_);
-  if (coupling_ && coupling_->due(steps_))
+  if (coupling_ && coupling_->due(steps_)) {
     coupling_->advance(particles_, clock(), feeding_ ? feeding_->arrivals(clock()) : Arrivals{});
+    next.reset();
+  }
   reported_ = std::abs(clock() - stop) < 0.5 * limits_.dt ? stop : clock();
-  look_ahead();
+  look_ahead(next);
   if (ahead_ == Ahead::trouble) stop_in_trouble();
   if (feeding_ && (!coupling_ || coupling_->due(steps_)) && feeding_->due(clock())) let_in();
 }
@@ -179,8 +182,8 @@ void Model::let_in() {
   if (fast) ahead_ = Ahead::fast;
 }
 
-/// Half kick and drift, forces, half kick.
-void Model::move(double dt) {
+/// Half kick and drift, forces, half kick. Returns the next drift if the fluid does not change it.
+Verlet::Drift Model::move(double dt) {
   {
     const auto scope = timers_.scope("motion", timed_);
     verlet_.begin(particles_, around_);
@@ -189,8 +192,9 @@ void Model::move(double dt) {
   if (joined_work_) joined_work_->add_forces();
   if (coupling_) coupling_->find_forces(particles_, timed_);
   const auto scope = timers_.scope("motion", timed_);
-  verlet_.end(particles_, around_);
+  const Verlet::Drift next = verlet_.end(particles_, around_, time_of_next());
   if (coupling_) coupling_->turn(particles_);
+  return next;
 }
 
 /// Collective: reports the deepest overlap on all ranks, or the particle that is too fast.
@@ -222,10 +226,11 @@ void Model::kick(const std::vector<Kick>& by_id) {
 }
 
 /// Determines the work of the next step, or that there must be none: everything that the ranks must agree on.
-void Model::look_ahead() {
+/// \param known  the next drift
+void Model::look_ahead(const std::optional<Verlet::Drift>& known) {
   const auto scope = timers_.scope("motion", timed_);
-  const double since = double(steps_ + 1 - marked_at_) * limits_.dt;
-  const Verlet::Drift drift = held_ ? Verlet::Drift{} : verlet_.next_drift(particles_, since, around_);
+  const double since = time_of_next();
+  const Verlet::Drift drift = known ? *known : held_ ? Verlet::Drift{} : verlet_.next_drift(particles_, since, around_);
   hasty_ = drift.hasty;
   met_ = std::max(met_, drift.speed);
   constexpr double tolerated = 1.25;  // the duration of a contact scales with the fifth root of the speed: harmless

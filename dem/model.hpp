@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "core/case/scene.hpp"
@@ -148,7 +149,9 @@ class Model : public core::Simulation {
   [[nodiscard]] std::int32_t work_of_particle() const { return coupling_ ? Coupling::work_of_particle : 1; }
   void restore(const core::Checkpoint& checkpoint, bool same_run);
   [[nodiscard]] Clock checked_clock(const core::Checkpoint& checkpoint, bool same_run) const;
-  void look_ahead();
+  void look_ahead(const std::optional<Verlet::Drift>& known = {});
+  /// From the last list to the end of the next drift, s.
+  [[nodiscard]] double time_of_next() const { return double(steps_ + 1 - marked_at_) * limits_.dt; }
   [[nodiscard]] bool list_goes_stale(double drift, double since) const;
   [[nodiscard]] bool may_shorten() const;
   void shorten_step();
@@ -162,7 +165,7 @@ class Model : public core::Simulation {
   [[nodiscard]] double clock() const { return began_ + double(steps_ - began_at_) * limits_.dt; }
   [[noreturn]] void stop_in_trouble() const;
   void wrap();
-  void move(double dt);
+  Verlet::Drift move(double dt);
 
   core::Scene scene_;
   std::shared_ptr<const core::Ranks> ranks_;

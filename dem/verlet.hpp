@@ -30,8 +30,6 @@ class Verlet {
   /// First half: afterwards positions and the velocities for the force are ready, and loads are zero.
   /// \param around  surroundings of the particles, here and below
   void begin(Particles& particles, Around around);
-  /// Second half: the velocities of the full step.
-  void end(Particles& particles, Around around);
 
   /// The ledger for work at velocities that the contacts did not predict; it must outlive this object.
   void keep(Ledger& ledger) { ledger_ = &ledger; }
@@ -51,25 +49,30 @@ class Verlet {
   };
   /// \param time  from the mark to then, s
   [[nodiscard]] Drift next_drift(const Particles& particles, double time, Around around) const;
+  /// Second half: the velocities of the full step. Returns next_drift() as long as nothing else changes them.
+  Drift end(Particles& particles, Around around, double time);
 
  private:
-  // Push moves particles apart from their spin: FluidMotion, AffineDrag or neither. kick() returns the effect of a time
-  // on one of them; account() records the fluid's part of it.
+  // Push moves particles apart from their spin: FluidMotion, AffineDrag or neither. pull() is what acts on four
+  // particles, take() the same for new loads, kick() its effect in a time; account() records the fluid's part of it.
   template <class Act>
   auto with(Around around, Act&& act) const;
   template <class Push>
   static void begin_with(Verlet& verlet, Particles& particles, Push& push);
   template <class Push>
-  static void end_with(Verlet& verlet, Particles& particles, Push& push);
+  static Drift end_with(Verlet& verlet, Particles& particles, Push& push, double time);
   template <class Push>
   static Drift next_drift_with(const Verlet& verlet, const Particles& particles, double time, const Push& push);
-  template <class Push>
-  void kick(Particles& particles, std::size_t i, Push& push, WorkShare share) const;
+  template <class Group, class Push, class Pull>
+  void kick(const Group& group, const Pull& pull, FourMotions& s, Push& push, WorkShare share) const;
+  void turn(FourMotions& s) const;
 
   struct Velocities {
-    Vector v, w;
+    FourVectors v, w;
   };
-  [[nodiscard]] double work_missed(const Particles& particles, std::size_t i, const Velocities& foreseen) const;
+  struct FourDrifts;
+  template <class Group>
+  void correct(const Group& group, const FourMotions& s, const Velocities& foreseen);
 
   bool synchronised_;
   double dt_;
@@ -78,7 +81,7 @@ class Verlet {
   double shear_rate_;
   Ledger* ledger_ = nullptr;      ///< null: nothing is counted
   std::vector<Velocities> half_;  ///< at the half step, for the synchronised variant
-  std::vector<Vector> marked_;
+  std::vector<FourVectors> marked_;
 };
 
 }  // namespace polybed::dem

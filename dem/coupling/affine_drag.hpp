@@ -28,26 +28,41 @@ class AffineDrag final : public KeptPart {
   [[nodiscard]] double coefficient(std::size_t species) const { return drag_[species]; }
 
   struct Kick {
-    Four dv, free;  ///< change of the velocity, and the change without drag, m/s; three numbers count
+    FourVectors dv, free;  ///< change of the velocity, and the change without drag, m/s
+  };
+  struct Pull {
+    FourVectors free, flow;
+    Four x, mean;
   };
   /// U <- u + (U - u) exp(-x) + free (1 - exp(-x))/x, x = k h/m, u = gamma y e_x. \param h  s
-  [[nodiscard]] Kick kick(const Particles& particles, std::size_t i, double h) const {
-    const Motion& m = particles.motion[i];
-    const double x = drag_[std::size_t(particles.species[i])] * m.inverse_mass * h, mean = mean_decay(x);
-    const double linear = m.inverse_mass * force_.unit * h;
-    const Four flow{shear_rate_ * particles.place[i].x[1], 0, 0, 0};
-    Kick kick;
-    kick.free = to_four(particles.load[i].force) * linear;
-    kick.dv = mean * (kick.free + x * (flow - four_at(m.v)));
-    return kick;
+  template <class Group>
+  [[gnu::always_inline, nodiscard]] Pull pull(const Particles& particles, const Group& group, const FourMotions& s,
+                                              double h) const {
+    Pull pull{s.load.force * (s.inverse_mass * force_.unit * h), {shear_rate_ * s.y, Four{}, Four{}}, {}, {}};
+    for (std::size_t n = 0; n < 4; ++n) {
+      pull.x[n] = drag_[std::size_t(particles.species[group[n]])] * s.inverse_mass[n] * h;
+      pull.mean[n] = mean_decay(pull.x[n]);
+    }
+    return pull;
+  }
+  template <class Group>
+  [[gnu::always_inline, nodiscard]] Pull take(const Particles& particles, const Group& group, const FourMotions& s,
+                                              double h) const {
+    return pull(particles, group, s, h);
+  }
+  [[gnu::always_inline, nodiscard]] static Kick kick(const Pull& pull, const FourVectors& v) {
+    const auto change = [&](const Four& f, const Four& u, const Four& v) { return pull.mean * (f + pull.x * (u - v)); };
+    return {each(change, pull.free, pull.flow, v), pull.free};
   }
   /// Adds the work of the drag in a kick, before the velocity changes.
-  void account(const Particles& particles, std::size_t i, const Kick& kick, double, WorkShare share) {
-    const Motion& m = particles.motion[i];
-    double work = 0;
-    for (std::size_t k = 0; k < 3; ++k)
-      work += (m.v[k] + 0.5 * kick.dv[k]) * kick.dv[k] - (m.v[k] + share.load * kick.dv[k]) * kick.free[k];
-    work_.add(work / m.inverse_mass * energy_.per_unit);
+  template <class Group>
+  [[gnu::always_inline]] void account(const Group& group, const Kick& kick, const FourMotions& s, double,
+                                      WorkShare share) {
+    const auto of = [&](const Four& v, const Four& dv, const Four& free) {
+      return (v + 0.5 * dv) * dv - (v + share.load * dv) * free;
+    };
+    const Four work = sum_of(each(of, s.v, kick.dv, kick.free)) / s.inverse_mass * energy_.per_unit;
+    for (std::size_t n = 0; n < group.count; ++n) work_.add(work[n]);
   }
   void sum_work() const {}
 

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "dem/box.hpp"
@@ -74,65 +75,87 @@ class FluidMotion {
   /// \param counts_work  whether the fluid's work is summed
   FluidMotion(const Materials& materials, double fluid_density, Vector gravity, FixedPoint force, FixedPoint energy,
               bool counts_work = true)
-      : gravity_{gravity[0], gravity[1], gravity[2], 0}, force_(force), energy_(energy), counts_work_(counts_work) {
+      : gravity_(gravity), force_(force), energy_(energy), counts_work_(counts_work) {
     for (const Species& species : materials.species()) {
       mass_.push_back(species.mass);
       const double share = 1 - fluid_density / species.density;
-      net_gravity_.push_back({share * gravity[0], share * gravity[1], share * gravity[2], 0});
+      net_gravity_.push_back({share * gravity[0], share * gravity[1], share * gravity[2]});
     }
   }
 
-  /// Motion of a particle over a time h under a load, the fluid, and its buoyant weight. The first three numbers of
-  /// each count.
+  /// Motion of four particles over a time h under their loads, the fluid, and their buoyant weight.
   struct Kick {
-    Four dv;    ///< change of its velocity, m/s
-    Four free;  ///< the change without drag, m/s
+    FourVectors dv, free;  ///< change of the velocity, and the change without drag, m/s
   };
+
+  /// What acts on four particles until their loads change.
+  struct Pull {
+    FourVectors free, fluid;  ///< change without drag; U_f, m/s
+    Four x, mean;             ///< kappa h, and the mean of exp(-kappa t) over it
+  };
+  template <class Group>
+  [[gnu::always_inline, nodiscard]] Pull pull(const Particles&, const Group& group, const FourMotions&, double) const {
+    const Row& row = rows_[group.first / 4];
+    return {{row.free.x, row.free.y, row.free.z},
+            get_records(group, [&](std::size_t i) { return load[i].velocity.data(); }).of,
+            row.x,
+            row.mean};
+  }
+  /// The same for the loads that act from now on.
+  template <class Group>
+  [[gnu::always_inline, nodiscard]] Pull take(const Particles& particles, const Group& group, const FourMotions& s,
+                                              double h) {
+    Row& row = rows_[group.first / 4];
+    const FourVectors others = get_records(group, [&](std::size_t i) { return load[i].force.data(); }).of;
+    Pull pull = this->pull(particles, group, s, h);
+    pull.free = each([&](const Four& load, const Four& other,
+                         const Four& weight) { return free_change(load, other, row.per_inertia, weight, h); },
+                     s.load.force, others, row.weight);
+    row.free = pull.free;
+    return pull;
+  }
   /// U_f is frozen: U <- U_f + (U - U_f) exp(-kappa h) + (1 - exp(-kappa h)) a/kappa, kappa = k/M, M the mass plus the
-  /// added mass, a the acceleration from all forces but drag. \param h  s, as in the last relax()
-  [[nodiscard]] Kick kick(const Particles& particles, std::size_t i, double h) const {
-    const FluidLoad& f = load[i];
-    const Relaxation& r = relaxation_[i];
-    Four weight;
-    get_four(net_gravity_[std::size_t(particles.species[i])].data(), weight);
-    Kick kick;
-    kick.free =
-        h * ((to_four(particles.load[i].force) * force_.unit + four_at(f.force)) * r.per_inertia + weight * r.share);
-    kick.dv = r.mean * (kick.free + r.x * (four_at(f.velocity) - four_at(particles.motion[i].v)));
-    return kick;
+  /// added mass, a the acceleration from all forces but drag. h is that of the last relax().
+  [[gnu::always_inline, nodiscard]] static Kick kick(const Pull& pull, const FourVectors& v) {
+    const auto change = [&](const Four& free, const Four& u, const Four& v) {
+      return pull.mean * (free + pull.x * (u - v));
+    };
+    return {each(change, pull.free, pull.fluid, v), pull.free};
   }
   /// Computes the coefficients common to all kicks over a time h while drag and added mass are constant. Call it when
-  /// these, h or the particles have changed, and before the first kick. \param h  s
+  /// these, h, the loads or the particles have changed other than by take(), and before the first kick. \param h  s
   void relax(const Particles& particles, double h) {
-    relaxation_.resize(load.size());
-    if (counts_work_) work_of_kick_.resize(load.size());
-    for (std::size_t i = 0; i < load.size(); ++i) relax(particles, i, h);
-  }
-  /// The same for one particle. \pre relax() has been called for all
-  void relax(const Particles& particles, std::size_t i, double h) {
-    const double inverse_mass = particles.motion[i].inverse_mass, share = 1 / (1 + load[i].added * inverse_mass);
-    const double per_inertia = inverse_mass * share, x = load[i].drag * per_inertia * h;
-    relaxation_[i] = {per_inertia, share, x, mean_decay(x)};
+    rows_.resize((load.size() + 3) / 4);
+    if (counts_work_) work_of_kick_.resize(4 * rows_.size());
+    for (std::size_t i = 0; i < load.size(); ++i) relax(particles, i, h, rows_[i / 4]);
   }
 
   /// Sums a kick's effect on the fluid, before the velocity changes: the impulse alone, or also its work.
-  void account_impulse(const Particles& particles, std::size_t i, const Kick& kick) {
-    FluidLoad& f = load[i];
-    const double inertia = mass_[std::size_t(particles.species[i])] + f.added;
-    add_three(inertia * (kick.dv - kick.free) - f.added * kick.dv, f.impulse);
+  template <class Group>
+  [[gnu::always_inline]] void account_impulse(const Group& group, const Kick& kick) {
+    const auto at = [&](std::size_t i) { return load[i].impulse.data(); };
+    FourRecords impulse = get_records(group, at);
+    const Four added = impulse.next, inertia = rows_[group.first / 4].mass + added;
+    const auto given = [&](const Four& dv, const Four& free) { return inertia * (dv - free) - added * dv; };
+    impulse.of = each(given, kick.dv, kick.free) + impulse.of;
+    put_records(group, impulse, at);
   }
-  void account(const Particles& particles, std::size_t i, const Kick& kick, double h, WorkShare share) {
-    account_impulse(particles, i, kick);
-    const double mass = mass_[std::size_t(particles.species[i])], unit = force_.unit * h;
-    Four gravity;
-    get_four(gravity_.data(), gravity);
-    const Four v = four_at(particles.motion[i].v), &dv = kick.dv, contacts = to_four(particles.load[i].force) * unit;
-    const Four work =
-        (v + 0.5 * dv) * mass * dv - (v + share.weight * dv) * mass * (gravity * h) - (v + share.load * dv) * contacts;
-    work_of_kick_[i] = work[0] + work[1] + work[2];
+  template <class Group>
+  [[gnu::always_inline]] void account(const Group& group, const Kick& kick, const FourMotions& s, double h,
+                                      WorkShare share) {
+    account_impulse(group, kick);
+    const Four mass = rows_[group.first / 4].mass;
+    const auto work = [&](const Four& v, const Four& dv, const Four& load, double gravity) {
+      return (v + 0.5 * dv) * mass * dv - (v + share.weight * dv) * mass * (gravity * h) -
+             (v + share.load * dv) * (load * (force_.unit * h));
+    };
+    const FourVectors &v = s.v, &dv = kick.dv, &load = s.load.force;
+    put_four(work(v.x, dv.x, load.x, gravity_[0]) + work(v.y, dv.y, load.y, gravity_[1]) +
+                 work(v.z, dv.z, load.z, gravity_[2]),
+             work_of_kick_.data() + group.first);
   }
   /// Adds the work of all particles' kicks: afterwards, so that no kick waits for the sum.
-  void sum_work() { work_.add(work_of_kick_, energy_.per_unit); }
+  void sum_work() { work_.add(std::span(work_of_kick_).first(load.size()), energy_.per_unit); }
   /// Adds a change of velocity that the fluid alone has caused.
   void account_coupling(const Motion& m, const Vector& dv) {
     if (!counts_work_) return;
@@ -148,26 +171,48 @@ class FluidMotion {
   [[nodiscard]] EnergySum work() const { return counts_work_ ? work_ : EnergySum(); }
   [[nodiscard]] bool counts_work() const { return counts_work_; }
   void set_work(const EnergySum& work) { work_ = work; }
-  /// Buoyant weight per mass of a species, m/s2; three numbers count.
-  [[nodiscard]] const std::array<double, 4>& net_gravity(std::int32_t species) const {
-    return net_gravity_[std::size_t(species)];
-  }
+  /// Buoyant weight per mass of a species, m/s2.
+  [[nodiscard]] const Vector& net_gravity(std::int32_t species) const { return net_gravity_[std::size_t(species)]; }
 
   std::vector<FluidLoad> load;  ///< for the owned particles
 
  private:
-  /// For a kick: 1/M, m/M, kappa h and the mean of exp(-kappa t) over it.
-  struct Relaxation {
-    double per_inertia, share, x, mean;
+  /// For the kicks of four particles: change without drag and net weight, m/M in it; kappa h and the mean of exp(-kappa
+  /// t) over it; 1/M and m.
+  struct Row {
+    FourVectors free, weight;
+    Four x{}, mean{}, per_inertia{}, mass{};
   };
 
-  std::array<double, 4> gravity_;                   ///< m/s2; three numbers count
-  std::vector<double> mass_;                        ///< of each species, kg
-  std::vector<std::array<double, 4>> net_gravity_;  ///< g (1 - rho_f/rho_p) of each species
+  void relax(const Particles& particles, std::size_t i, double h, Row& row) const {
+    const std::size_t n = i % 4, species = std::size_t(particles.species[i]);
+    const double inverse_mass = particles.motion[i].inverse_mass, share = 1 / (1 + load[i].added * inverse_mass);
+    row.per_inertia[n] = inverse_mass * share;
+    row.x[n] = load[i].drag * row.per_inertia[n] * h;
+    row.mean[n] = mean_decay(row.x[n]);
+    row.mass[n] = mass_[species];
+    const auto set = [&](Four& weight, Four& free, std::size_t k) {
+      weight[n] = net_gravity_[species][k] * share;
+      free[n] = free_change(double(particles.load[i].force[k]), load[i].force[k], row.per_inertia[n], weight[n], h);
+    };
+    set(row.weight.x, row.free.x, 0);
+    set(row.weight.y, row.free.y, 1);
+    set(row.weight.z, row.free.z, 2);
+  }
+  template <class Numbers>
+  [[gnu::always_inline, nodiscard]] Numbers free_change(const Numbers& load, const Numbers& other,
+                                                        const Numbers& per_inertia, const Numbers& weight,
+                                                        double h) const {
+    return h * ((load * force_.unit + other) * per_inertia + weight);
+  }
+
+  Vector gravity_;                   ///< m/s2
+  std::vector<double> mass_;         ///< of each species, kg
+  std::vector<Vector> net_gravity_;  ///< g (1 - rho_f/rho_p) of each species
   FixedPoint force_, energy_;
   bool counts_work_;
-  std::vector<Relaxation> relaxation_;
-  std::vector<double> work_of_kick_;  ///< of the fluid on each particle, J; empty if not counted
+  std::vector<Row> rows_;
+  std::vector<double> work_of_kick_;  ///< of the fluid on each particle, J, in whole rows; empty if not counted
   EnergySum work_;
 };
 

@@ -66,7 +66,8 @@ class HeldShear {
     drag_.find(particles, gather_, motion.load);
     sides.find(particles, gather_, motion.load);
     relax();
-    verlet_.end(particles, {&motion});
+    verlet_.mark(particles);
+    verlet_.end(particles, {&motion}, 0);
     sides.turn(particles, motion);
     if (++steps_ % every_ != 0) return;
     drag_.find(particles, gather_, motion.load);

@@ -50,7 +50,6 @@ ParticleRun::ParticleRun(const std::string& name, const core::Scene& scene, dem:
               gravity_of(scene.column), {}, {}),
       last_(particles_.owned) {
   motion_.load.resize(particles_.owned);
-  motion_.relax(particles_, 0.5 * dt_);
   take_fields();
   collect();
   flow_.begin(0, phase_);
@@ -92,16 +91,19 @@ void ParticleRun::kick(std::size_t i) {
     for (std::size_t k = 0; k < 3; ++k) f.force[k] -= added * last_[i][k];
     f.added = 0;
   }
-  motion_.relax(particles_, i, h);
-  dem::FluidMotion::Kick kick = motion_.kick(particles_, i, h);
-  if (treatment_ == Treatment::drag_explicit)
-    for (std::size_t k = 0; k < 3; ++k) kick.dv[k] = kick.free[k] + h * f.drag / mass * (f.velocity[k] - m.v[k]);
-  motion_.account(particles_, i, kick, h, {0.5, 0.5});
-  for (std::size_t k = 0; k < 3; ++k) m.v[k] += kick.dv[k];
+  const double inertia = mass + f.added, x = f.drag * h / inertia, mean = dem::mean_decay(x);
+  dem::Vector dv;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double weight = mass * motion_.net_gravity(particles_.species[i])[k], slip = f.velocity[k] - m.v[k];
+    const double free = h * (f.force[k] + weight) / inertia;
+    dv[k] = treatment_ == Treatment::drag_explicit ? free + h * f.drag / mass * slip : mean * (free + x * slip);
+    f.impulse[k] += inertia * (dv[k] - free) - f.added * dv[k];
+    m.v[k] += dv[k];
+  }
   if (treatment_ != Treatment::added_mass_lagged) return;
   for (std::size_t k = 0; k < 3; ++k) {
     f.force[k] += added * last_[i][k];
-    last_[i][k] = kick.dv[k] / h;
+    last_[i][k] = dv[k] / h;
   }
   f.added = added;
 }

@@ -69,7 +69,8 @@ class Bench {
   void step() {
     verlet.begin(particles, {});
     forces.add_walls(particles, walls, dt);
-    verlet.end(particles, {});
+    verlet.mark(particles);
+    verlet.end(particles, {}, 0);
   }
   /// The force on particle 0 with prescribed overlap and motion, after a step dt.
   Vector press(double overlap, const Vector& velocity, const Vector& spin = {}) {

@@ -11,6 +11,8 @@ namespace {
 /// A load in whole units of 2^-60 N, about (1, 5, -4) micronewtons.
 constexpr Vector load{0x1p-20, 5 * 0x1p-20, -4 * 0x1p-20};
 
+constexpr PartGroup alone{0, 1};
+
 /// One coarse particle, its force counted in units of 2^-60 N.
 struct One {
   Cloud cloud{cloud_scene(3, true)};
@@ -30,13 +32,24 @@ struct One {
   void push(const Vector& force) {
     for (std::size_t k = 0; k < 3; ++k) cloud.particles.load[0].force[k] = std::llround(std::ldexp(force[k], 60));
   }
-  FluidMotion::Kick kick(double h, WorkShare share = {0.5, 0.5}) {
+  [[nodiscard]] FourMotions in_rows() const {
+    FourMotions s{};
+    const auto put = [](const auto& from, FourVectors& row) {
+      row.x[0] = double(from[0]);
+      row.y[0] = double(from[1]);
+      row.z[0] = double(from[2]);
+    };
+    put(cloud.particles.motion[0].v, s.v);
+    put(cloud.particles.load[0].force, s.load.force);
+    return s;
+  }
+  void kick(double h, WorkShare share = {0.5, 0.5}) {
     motion.relax(cloud.particles, h);
-    const FluidMotion::Kick kick = motion.kick(cloud.particles, 0, h);
-    motion.account(cloud.particles, 0, kick, h, share);
+    const FourMotions s = in_rows();
+    const FluidMotion::Kick kick = motion.kick(motion.pull(cloud.particles, alone, s, h), s.v);
+    motion.account(alone, kick, s, h, share);
     motion.sum_work();
-    for (std::size_t k = 0; k < 3; ++k) state().v[k] += kick.dv[k];
-    return kick;
+    state().v = {s.v.x[0] + kick.dv.x[0], s.v.y[0] + kick.dv.y[0], s.v.z[0] + kick.dv.z[0]};
   }
 };
 
@@ -49,7 +62,8 @@ TEST(FluidMotion, TakesTheSameImpulseWhereItsWorkIsNotCounted) {
                     {std::ldexp(1.0, 80), std::ldexp(1.0, -80)}, false);
   other.load = one.motion.load;
   other.relax(one.cloud.particles, 1e-3);
-  other.account_impulse(one.cloud.particles, 0, other.kick(one.cloud.particles, 0, 1e-3));
+  const FourMotions s = one.in_rows();
+  other.account_impulse(alone, other.kick(other.pull(one.cloud.particles, alone, s, 1e-3), s.v));
   other.account_work(1e-9);
   one.kick(1e-3);
   EXPECT_NE(one.motion.work(), EnergySum());
@@ -142,6 +156,39 @@ TEST_P(FluidWork, IsWhatOthersDoNot) {
 INSTANTIATE_TEST_SUITE_P(Shares, FluidWork,
                          testing::Values(WorkShare::before_drift(false), WorkShare::after_drift(false),
                                          WorkShare::before_drift(true), WorkShare::after_drift(true)));
+
+// New loads act as after relax(), to the bit.
+TEST(FluidMotion, TakesNewLoads) {
+  One one, other;
+  for (One* each : {&one, &other}) {
+    each->feels().drag = 2e-5;
+    each->feels().added = 0.3 * each->mass;
+    each->feels().force = {2e-6, -1e-6, 3e-6};
+    each->motion.relax(each->cloud.particles, 1e-3);
+    each->push(load);
+  }
+  (void)one.motion.take(one.cloud.particles, alone, one.in_rows(), 1e-3);
+  other.motion.relax(other.cloud.particles, 1e-3);
+  const FourVectors taken = one.motion.pull(one.cloud.particles, alone, one.in_rows(), 1e-3).free;
+  const FourVectors relaxed = other.motion.pull(other.cloud.particles, alone, one.in_rows(), 1e-3).free;
+  EXPECT_NE(taken.x[0], 0);
+  EXPECT_EQ(taken.x[0], relaxed.x[0]);
+  EXPECT_EQ(taken.y[0], relaxed.y[0]);
+  EXPECT_EQ(taken.z[0], relaxed.z[0]);
+}
+
+// A whole number becomes the nearest double, whichever of its halves is large; ties go to the even one.
+TEST(Several, RoundsWholeNumbers) {
+  const std::int64_t large = (std::int64_t(1) << 62) + 1, tie = (std::int64_t(1) << 53) + 1;
+  for (const std::int64_t whole :
+       {std::int64_t(0), std::int64_t(1), std::int64_t(-1), tie, -tie, tie + 2, large, -large, std::int64_t(0xffffffff),
+        std::int64_t(-0x100000000), INT64_MIN, INT64_MAX}) {
+    const std::array<std::int64_t, 4> four{whole, whole, whole, whole};
+    Four bits;
+    get_four(four.data(), bits);
+    EXPECT_EQ(from_whole(bits)[2], double(whole)) << whole;
+  }
+}
 
 // exp series to x^6/5040: the next term is under 1e-16 below 0.02; both sides of the joint against long double.
 TEST(FluidMotion, MeanDecayHasItsSeriesWhereTheDifferenceWouldCancel) {
