@@ -25,7 +25,7 @@ core::ExitCode run(int argc, char** argv) {
   app.add_option("-j,--jobs", options.jobs, "cells at once")->check(CLI::Range(1, 256));
   app.add_option("-o,--output", options.output, "default runs/stability");
   app.add_flag("--json", options.json, "one JSON object on standard output, nothing else there");
-  app.add_flag("--oracles", options.oracles, "print the numbers that polybed cost selftest examines")->group("");
+  app.add_flag("--oracles", options.oracles, "print numbers of problems with known answers")->group("");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

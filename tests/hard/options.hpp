@@ -25,7 +25,7 @@ struct Options {
 core::ExitCode run_matrix(const Options& options);
 /// Runs the drawn scenes of --fuzz and --draw. Returns `numerics` if one fails.
 core::ExitCode run_drawn(const Options& options);
-/// Prints the numbers of the program that `polybed cost selftest` examines.
+/// Prints the numbers of the program that tests/unit/python/cost_test.py examines.
 core::ExitCode run_oracles();
 
 }  // namespace polybed::hard

@@ -1,6 +1,6 @@
-// polybed-hard --oracles: what `polybed cost selftest` examines of the program itself. How often the interval of a mean
-// has the truth; a particle that settles, by both integrators, which must buy error with work at the rate of their
-// order; and a bed of two layers, as cells and as particles counted into slabs.
+// polybed-hard --oracles: numbers of the program that tests/unit/python/cost_test.py examines. How often the interval
+// of a mean has the truth; a particle that settles, by both integrators, which must buy error with work at the rate of
+// their order; and a bed of two layers, as cells and as particles counted into slabs.
 #include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>

@@ -50,8 +50,7 @@ def parser():
                                       description="Runs a case at several settings, measures how far each is from a reference and what "
                                                   "it costs, and recommends the cheapest within an error.")
     options.add_argument("words", nargs="+", metavar="WORDS",
-                         help="CASE: the study; check DIR: run its recommendation again; "
-                              "selftest: problems with known answers")
+                         help="CASE: the study; check DIR: run its recommendation again")
     options.add_argument("--set", action="append", default=[], metavar="KEY=VALUE", help="in place of what the file says")
     options.add_argument("-o", "--output", type=Path, help="folder; default runs/<case name>-cost")
     options.add_argument("--until", help='simulated time, e.g. "20 s"')
@@ -144,20 +143,12 @@ def sweep(given):
     return found.outcome == "done"
 
 
-def selftest():
-    from polybed.cost.selftest import print_selftest
-    return print_selftest()
-
-
 def work(given):
     """Does what the words ask for; returns the code to end with."""
-    commands = {"check": ("check DIR", lambda folder: check_recommendation(Path(folder))),
-                "selftest": ("selftest", selftest)}
-    first, *rest = given.words
-    usage, do = commands.get(first, ("CASE, check DIR or selftest", lambda: sweep(given)))
-    if len(given.words) != (len(usage.split()) if first in commands else 1):
-        raise StudyError(WRONG_CASE, f"usage: polybed cost {usage}")
-    return DONE if do(*rest) else NUMBERS
+    checks = given.words[0] == "check"
+    if len(given.words) != 1 + checks:
+        raise StudyError(WRONG_CASE, "usage: polybed cost CASE, or polybed cost check DIR")
+    return DONE if (check_recommendation(Path(given.words[1])) if checks else sweep(given)) else NUMBERS
 
 
 def main(arguments=None):

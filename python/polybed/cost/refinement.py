@@ -9,23 +9,20 @@ SAFETY_IN_RANGE, SAFETY_ELSEWHERE = 1.25, 3
 
 @dataclass
 class Refined:
-    """The result of three grids. Without an index the limit is the finest value, and the band is the scatter of the values."""
+    """The result of three grids. Without an order the limit is the finest value, and the band is the scatter of the values."""
     limit: float  # Richardson's value, or the value on the finest grid
     band: float  # half-width about the limit
     order: float | None = None  # p; None if the sequence is not monotone or does not converge
     safety: float = 0.0  # F_s
-    fine_index: float | None = None  # GCI of grids 1 and 2, relative
-    coarse_index: float | None = None  # of 2 and 3
-    asymptotic: float | None = None  # GCI_12 r^p/GCI_23: 1 in the asymptotic range
-    note: str = ""  # why there is no index, or why the safety is large
+    note: str = ""  # why there is no order, or why the safety is large
 
 
 def refine(coarse, medium, fine, ratio=2.0, formal_order=2.0):
-    """Observed order p = ln((f3 - f2)/(f2 - f1))/ln r, Richardson's limit f1 + (f1 - f2)/(r^p - 1) and
-    GCI = F_s |f1 - f2|/(|f1| (r^p - 1)) (Roache 1994, J. Fluids Eng. 116, 405) of one quantity on three grids: f3, f2 and f1.
+    """Observed order p = ln((f3 - f2)/(f2 - f1))/ln r, Richardson's limit f1 + (f1 - f2)/(r^p - 1) and the band
+    F_s |f1 - f2|/(r^p - 1) (Roache 1994, J. Fluids Eng. 116, 405) of one quantity on three grids: f3, f2 and f1.
 
     F_s = 1.25 where p_formal/2 <= p <= p_formal + 0.5; monotone otherwise: 3 with the smaller of p and p_formal. Not monotone, or
-    differences that do not shrink: no index; the band is three times half the range of the values. Raises ValueError for r < 1.3, where
+    differences that do not shrink: no order; the band is three times half the range of the values. Raises ValueError for r < 1.3, where
     rounding and noise are amplified beyond use. ratio: r, of the spacings
     """
     if not ratio >= LEAST_RATIO:
@@ -44,10 +41,5 @@ def refine(coarse, medium, fine, ratio=2.0, formal_order=2.0):
     in_range = formal_order / 2 <= observed <= formal_order + 0.5
     growth = ratio ** (observed if in_range else min(observed, formal_order))
     safety = SAFETY_IN_RANGE if in_range else SAFETY_ELSEWHERE
-
-    def index(step, value):
-        return safety * abs(step) / (abs(value) * (growth - 1)) if value != 0 else None
-    fine_index, coarse_index = index(first, fine), index(second, medium)
-    return Refined(fine - first / (growth - 1), safety * abs(first) / (growth - 1), observed, safety, fine_index, coarse_index,
-                   fine_index * growth / coarse_index if fine_index is not None and coarse_index else None,
+    return Refined(fine - first / (growth - 1), safety * abs(first) / (growth - 1), observed, safety,
                    "" if in_range else "the observed order is not that of the scheme")

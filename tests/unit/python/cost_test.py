@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 """What `polybed cost` computes from what it has measured, by hand values. Usage: cost_test.py PROGRAM PACKAGE_DIRECTORY"""
 
+import json
 import os
 import sys
 import tempfile
@@ -9,12 +10,13 @@ from math import e, inf
 from types import SimpleNamespace
 
 import numpy as np
+from scipy.integrate import solve_ivp
 
 PROGRAM, PACKAGE = sys.argv[1:3]
 sys.path.insert(0, PACKAGE)
 os.environ["POLYBED"] = PROGRAM
 
-from polybed.cost import command, quantities, selftest  # noqa: E402
+from polybed.cost import command, quantities  # noqa: E402
 from polybed.cost.axes import axes_of, grid_level, level_axis, numbers  # noqa: E402
 from polybed.cost.fit import Priced, fit_power_law, pareto_front  # noqa: E402
 from polybed.cost.judge import advice, carries  # noqa: E402
@@ -23,22 +25,41 @@ from polybed.cost.sweep import Share, Sweep, SweepOptions  # noqa: E402
 from polybed.cost.sweeper import is_chaotic  # noqa: E402
 from polybed.cost.work import counters_of, weighed  # noqa: E402
 from polybed.ending import StudyError  # noqa: E402
+from polybed.runner import call  # noqa: E402
 from polybed.study.measured import Window  # noqa: E402
 from stored_run import Written  # noqa: E402
 
 
-class Selftest(unittest.TestCase):
-    def test_every_oracle_passes(self):
-        for oracle in selftest.oracles():
-            with self.subTest(oracle.id):
-                self.assertTrue(oracle.passed, f"{oracle.found}, wanted {oracle.wanted}")
+def lorenz(_, y):
+    return 10 * (y[1] - y[0]), y[0] * (28 - y[2]) - y[1], y[0] * y[1] - 8 / 3 * y[2]
 
-    def test_an_oracle_can_fail(self):
-        slow = {"explicit": [{"steps": 8, "error": 1e-2}, {"steps": 16, "error": 5e-3}],
-                "implicit": [{"steps": 8, "error": 1e-2}, {"steps": 16, "error": 2.5e-3}]}
-        self.assertFalse(selftest.k4(slow).passed)  # of first order
-        self.assertFalse(selftest.k13([0.06]).passed)  # the dense layer
-        self.assertFalse(selftest.k14({name: [0.1, 0.2] for name in ("bed_height", "centre_b", "interface", "mixing")}, 0).passed)
+
+def damped(_, y):
+    return y[1], -y[0] - 0.2 * y[1], 0.0
+
+
+class Oracles(unittest.TestCase):
+    """Problems with known answers that `polybed-hard` computes with the means, integrators and measures of the program."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.computed = json.loads(call("stability", "--oracles"))
+
+    def test_the_interval_of_a_mean_contains_the_true_mean(self):
+        self.assertAlmostEqual(self.computed["coverage"], 0.95, delta=0.02)
+
+    def test_the_error_of_both_integrators_falls_at_their_order(self):
+        for name, order in (("explicit", 3), ("implicit", 2)):
+            law = fit_power_law(*zip(*((run["steps"], run["error"]) for run in self.computed["settling"][name])))
+            self.assertAlmostEqual(-law.exponent, order, delta=0.2, msg=name)
+
+    def test_cells_and_counted_particles_measure_the_same(self):
+        """Slabs of 2 mm: lengths agree within one, shares within a slice of 50. The denser lower layer ends at 60 mm, the bed at 160 mm."""
+        measures = self.computed["measures"]
+        self.assertAlmostEqual(measures["bed_height"][0], 0.16, delta=1e-3)
+        for name, within in (("bed_height", 2e-3), ("centre_b", 2e-3), ("interface", 2e-3), ("mixing", 0.02)):
+            self.assertAlmostEqual(*measures[name], delta=within, msg=name)
+        self.assertLess(self.computed["composition"], 0.02)
 
 
 class Laws(unittest.TestCase):
@@ -57,6 +78,12 @@ class Laws(unittest.TestCase):
 
 
 class Refinement(unittest.TestCase):
+    def test_by_numbers_known_to_all_digits(self):
+        found = refine(0.961780, 0.968540, 0.970500)
+        self.assertAlmostEqual(found.order, 1.786170, delta=5e-7)
+        self.assertAlmostEqual(found.limit, 0.9713003, delta=5e-8)
+        self.assertAlmostEqual(100 * found.band / 0.970500, 0.103083, delta=5e-7)  # the grid convergence index, %
+
     def test_order_and_limit_of_a_power(self):
         """Exact powers: f = 1 + h^p at h = 1, 1/3, 1/9 has the limit 1 whatever the safety."""
         for p in (1.0, 2.0):
@@ -75,13 +102,13 @@ class Refinement(unittest.TestCase):
         self.assertAlmostEqual(slow.order, 0.3219, delta=1e-4)
         self.assertEqual(slow.safety, 3)
 
-    def test_a_scattered_sequence_has_no_index(self):
+    def test_a_scattered_sequence_has_no_order(self):
         """K12: a sequence that swings, or that parts; three times half of its range is told in its place."""
         found = refine(1.0, 1.2, 1.1)
-        self.assertEqual((found.order, found.fine_index, found.coarse_index), (None, None, None))
+        self.assertIsNone(found.order)
         self.assertAlmostEqual(found.band, 0.3, delta=1e-12)
         self.assertIn("asymptotic range", found.note)
-        self.assertIsNone(refine(1.0, 1.1, 1.3).fine_index)
+        self.assertIsNone(refine(1.0, 1.1, 1.3).order)
         self.assertEqual(refine(1.0, 1.0, 1.0).band, 0)
         with self.assertRaises(ValueError):
             refine(1, 2, 3, 1.2)
@@ -89,8 +116,13 @@ class Refinement(unittest.TestCase):
 
 class Regime(unittest.TestCase):
     def test_what_stands_still_is_steady(self):
-        """Chaos itself is K7 of the selftest."""
         self.assertFalse(is_chaotic([1.0] * 9, [1.0 + 1e-15] * 9))
+
+    def test_a_chaotic_system_is_told_from_one_that_is_not(self):
+        """By the first component at every 0.01 up to 50, with the start pushed by 1e-10."""
+        for rate, chaotic in ((lorenz, True), (damped, False)):
+            courses = [solve_ivp(rate, (0, 50), (1 + push, 1.0, 1.0), t_eval=np.arange(1, 5001) / 100, rtol=1e-8).y[0] for push in (0, 1e-10)]
+            self.assertEqual(is_chaotic(*courses), chaotic)
 
 
 class Work(unittest.TestCase):
