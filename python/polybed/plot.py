@@ -28,7 +28,7 @@ with needed(False):
 # text_of(record, path) for it.
 STUDIES = {"comparison.json": ("polybed comparison", (), "polybed.comparison"),
            "inversion.json": ("polybed inversion", ("png",), "polybed.drawing.inversion_scan"),
-           "cost.json": ("polybed cost", ("png", "svg"), "polybed.cost.page"),
+           "cost.json": ("polybed cost", ("png", "svg"), "polybed.drawing.cost"),
            "stability.json": ("polybed stability", ("png", "svg"), "polybed.drawing.hard_cases"),
            "closure_uncertainty.json": ("polybed closure uncertainty", ("png",), "polybed.drawing.closure_uncertainty"),
            "fit.json": ("polybed drag fit", ("png",), "polybed.drawing.fit")}

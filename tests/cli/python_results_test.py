@@ -15,7 +15,7 @@ from program import ROOT, WRONG_CASE, Scratch, strict_json
 
 sys.path.insert(0, str(ROOT / "python"))
 import polybed  # noqa: E402
-import polybed.cost.page  # noqa: E402, F401  the functions keep their names
+import polybed.cost.report  # noqa: E402, F401  the functions keep their names
 import polybed.fit.errors  # noqa: E402, F401
 import polybed.program as of_program  # noqa: E402
 

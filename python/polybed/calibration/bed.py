@@ -3,8 +3,9 @@
 import math
 
 from polybed.calibration.fit import Table, grouped, mean_of_seeds
-from polybed.calibration.output import columns, mean_text
+from polybed.calibration.text import measured
 from polybed.ending import NUMBERS, StudyError
+from polybed.tables import right_table
 
 AGREEMENT = 0.05  # what both measures of the pressure may differ by
 UNITS = "p_bed over |rho_p - rho_f| g D; theta_bed over that and rho_p; velocity m/s"
@@ -43,14 +44,14 @@ def require_usable(table):
 
 
 def bed_lines(boxes):
-    head = (("planned", 8), ("phi", 8), ("seed", 5), ("p_bed by slabs", 20), ("by balance", 20), ("slabs/balance", 12))
-    return columns(head, [[f"{box['solids_fraction']:g}", f"{box['bed_phi']:.4f}", box["seed"], mean_text(*box["p_bed"]),
-                           mean_text(*box["p_bed_by_balance"]), f"{box['p_bed'][0] / box['p_bed_by_balance'][0]:.3f}"] for box in boxes])
+    head = ("planned", "phi", "seed", "p_bed by slabs", "by balance", "slabs/balance")
+    return right_table(head, [[f"{box['solids_fraction']:g}", f"{box['bed_phi']:.4f}", box["seed"], measured(box["p_bed"]),
+                               measured(box["p_bed_by_balance"]), f"{box['p_bed'][0] / box['p_bed_by_balance'][0]:.3f}"] for box in boxes])
 
 
 def bed_rows(table):
-    head = (("mm/s", 8), ("phi", 8), ("p_bed by slabs", 20), ("by balance", 20), ("difference", 12), ("theta", 8))
-    each = zip(rows(table), table["velocity"], table["theta_bed"])
-    return columns(head, [[f"{1e3 * velocity:.3f}", f"{phi:.4f}", mean_text(slabs, slabs_error), mean_text(balance, balance_error),
-                           f"{100 * (balance / slabs - 1):+.1f} %", f"{theta:.3g}"]
-                          for (phi, slabs, slabs_error, balance, balance_error), velocity, theta in each])
+    head = ("mm/s", "phi", "p_bed by slabs", "by balance", "difference", "theta")
+    return right_table(head, [[f"{1e3 * velocity:.3f}", f"{phi:.4f}", measured((slabs, slabs_error)), measured((balance, balance_error)),
+                               f"{100 * (balance / slabs - 1):+.1f} %", f"{theta:.3g}"]
+                              for (phi, slabs, slabs_error, balance, balance_error), velocity, theta in zip(rows(table), table["velocity"],
+                                                                                                           table["theta_bed"])])

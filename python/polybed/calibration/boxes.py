@@ -4,10 +4,11 @@ import json
 import time
 from concurrent.futures import as_completed
 
-from polybed.calibration.output import ERR, duration, say
+from polybed.drawing.units import duration
 from polybed.ending import FILE, NUMBERS, StudyError
 from polybed.files import FAULTS, contents_of, finite, read_text
 from polybed.runner import Door, side_by_side
+from polybed.study.record import remark
 
 # What is read of a box: numbers, and means with their standard error.
 SINGLE = ("solids_fraction", "stokes", "restitution", "friction", "share", "seed", "balance", "drift", "shear_rate_1_s", "diameter_m",
@@ -113,7 +114,6 @@ class Boxes:
         self.tell()
 
     def tell(self):
-        if self.options.quiet:
-            return
-        passed, left = time.monotonic() - self.begin, self.expected_left()
-        say(f"{sum(self.done)} of {len(self.done)} boxes; about {duration(passed * left / max(self.all - left, 1e-9))} left\n", ERR)
+        if not self.options.quiet:
+            passed, left = time.monotonic() - self.begin, self.expected_left()
+            remark(f"{sum(self.done)} of {len(self.done)} boxes; about {duration(passed * left / max(self.all - left, 1e-9))} left")

@@ -2,8 +2,8 @@
 
 import math
 
-from polybed.calibration.output import columns
 from polybed.calibration.plan import Point
+from polybed.tables import right_table
 
 SEED = 1001  # one that no plan has
 
@@ -35,5 +35,5 @@ def deviation_lines(points, deviations):
     def told(off, error):
         return f"{100 * off:+.1f} % +- {100 * error:.1f} ({abs(off) / error if error else math.inf:.1f} se)"
 
-    head = (("phi", 6), ("St", 6), ("p, box over table", 24), ("mu, box over table", 24))
-    return columns(head, [[f"{point.phi:.4g}", f"{point.stokes:.4g}", told(*p), told(*mu)] for point, (p, mu) in zip(points, deviations)])
+    head = ("phi", "St", "p, box over table", "mu, box over table")
+    return right_table(head, [[f"{point.phi:.4g}", f"{point.stokes:.4g}", told(*p), told(*mu)] for point, (p, mu) in zip(points, deviations)])

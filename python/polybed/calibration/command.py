@@ -9,14 +9,16 @@ from pathlib import Path
 from polybed.calibration import bed, fit
 from polybed.calibration.boxes import Boxes, asked_of
 from polybed.calibration.check import deviation, deviation_lines, points_between
-from polybed.calibration.output import ERR, OUT, duration, refusals, say
 from polybed.calibration.plan import Plan
 from polybed.calibration.text import box_lines, table_toml
-from polybed.ending import DONE, FILE, WRONG_CASE, StudyError, guarded
+from polybed.drawing.units import duration
+from polybed.ending import DONE, WRONG_CASE, StudyError, answer, guarded
 from polybed.in_place import in_place, put_text
+from polybed.program import name_of
 from polybed.runner import Door, ranks
 from polybed.solids_table import read_table
 from polybed.study import output_folder
+from polybed.study.record import remark
 
 
 # Axes of a table.
@@ -45,15 +47,28 @@ def parsed(arguments):
     parser.add_argument("--quiet", action="store_true", help="no progress")
     parser.add_argument("--json", action="store_true", help="one JSON object")
     options = parser.parse_args(arguments)
-    case = Path(options.case).absolute()  # called by its folder, which may be a link
-    options.output = options.output or Path("runs") / f"{case.parent.name if case.stem == 'case' else case.stem}-calibrate"
+    options.output = options.output or Path("runs") / f"{name_of(options.case)}-calibrate"
     options.on_ranks = ranks() > 1
-    options.people = ERR if options.json else OUT  # with --json standard output is the object's alone
+    options.refused = None  # by standard output, which ends no calibration
     return options
 
 
+def say(options, text):
+    """For people: with --json standard output is the object's alone."""
+    try:
+        (remark if options.json else answer)(text)
+    except StudyError as error:
+        options.refused = error
+
+
+def keep(options, name, lines):
+    """Lines for people, said and written."""
+    say(options, lines.rstrip("\n"))
+    put_text(options.output / name, lines, "surrogateescape")
+
+
 def say_object(found):
-    say(json.dumps(found, ensure_ascii=False) + "\n")
+    answer(json.dumps(found, ensure_ascii=False))
 
 
 def show_plan(options, plan, boxes):
@@ -69,7 +84,7 @@ def show_plan(options, plan, boxes):
     expected = boxes.expected_left() / at_once
     text += f"{len(boxes.points)} boxes: {min(plan.seeds)} random start{'s' * (min(plan.seeds) > 1)} at each point of\n"
     text += "".join(f"  {WORDS[name] + ':':37} {', '.join(f'{value:.4g}' for value in values)}\n" for name, values in axes.items() if any(values))
-    say(f"{text}{len(boxes.left())} left to run, about {duration(expected)}, {at_once} at once\n", options.people)
+    say(options, f"{text}{len(boxes.left())} left to run, about {duration(expected)}, {at_once} at once")
     if options.plan and options.json:
         say_object({"regime": plan.regime, "reason": case["reason"], "boxes": len(boxes.points), "left": len(boxes.left()),
                     "expected_s": expected})
@@ -86,8 +101,7 @@ def check_table(options, door, plan):
     boxes = Boxes(door, options, points).run()
     ratios = door.ask("ratios", table=options.check, points=asked_of(points))
     lines = deviation_lines(points, [deviation(box, read, table.attributes["lambda"]) for box, read in zip(boxes, ratios)])
-    say(lines, options.people)
-    put_text(options.output / "check.txt", lines, "surrogateescape")
+    keep(options, "check.txt", lines)
 
 
 def identify(table, plan):
@@ -98,7 +112,7 @@ def identify(table, plan):
 
 def say_table(options, plan, count, tested):
     path = options.output / "table.h5"
-    say(f"table: {path}\n", options.people)
+    say(options, f"table: {path}")
     if options.json:
         say_object({"table": str(path), "regime": plan.regime, "reason": plan.case["reason"], "boxes": count, **tested})
 
@@ -107,8 +121,7 @@ def finish_bed(options, plan, boxes):
     """Fluidised boxes: p_bed by both measures, and the table of that by slabs."""
     table = bed.bed_table(plan.seeds, boxes, plan.case["weight_m2_s2"])
     lines = bed.bed_lines(boxes) + "\n" + bed.bed_rows(table)
-    say(lines, options.people)
-    put_text(options.output / "boxes.txt", lines, "surrogateescape")
+    keep(options, "boxes.txt", lines)
     bed.require_usable(table)
     identify(table, plan)
     with in_place(options.output / "table.h5") as path:
@@ -138,10 +151,9 @@ def finish_sheared(options, door, plan, boxes, table):
         table.arrays |= {"phi_bed": of_bed["phi"], "p_bed": of_bed["p_bed"]}
         table.arrays |= {"p_bed_se": of_bed["p_bed_se"]} if "p_bed_se" in of_bed.names() else {}
     lines = box_lines(boxes)
-    say(lines, options.people)
-    put_text(options.output / "boxes.txt", lines, "surrogateescape")
+    keep(options, "boxes.txt", lines)
     tested = tested_by(table, plan)
-    say("".join(f"{line}\n" for line in tested_lines(tested)), options.people)
+    say(options, "\n".join(tested_lines(tested)))
     identify(table, plan)
     table.attributes |= {"size_ratio": float(plan.case["size_ratio"]), "units": "ratios to the reference; p_bed over |rho_p - rho_f| g D"}
     fit.require_exchange(table)
@@ -149,8 +161,8 @@ def finish_sheared(options, door, plan, boxes, table):
         table.write(path)
         shape = door.ask("table", table=path)
         if shape["falls_in_shear_up_to"] > 0:
-            say(f"at fixed shear rate without a fluid the pressure falls up to phi = {shape['falls_in_shear_up_to']:.3f}, as a dilute gas "
-                "does\n", options.people)
+            say(options, f"at fixed shear rate without a fluid the pressure falls up to phi = {shape['falls_in_shear_up_to']:.3f}, as a "
+                         "dilute gas does")
         fit.require_usable(table, shape["falls"])
     put_text(options.output / "table.toml", table_toml(table, plan, boxes, shape["a"]), "surrogateescape")
     say_table(options, plan, len(boxes), tested)
@@ -190,7 +202,7 @@ def main(arguments=None):
     def work():
         with Door() as door:
             calibrate(options, door)
-        if refusals:
-            raise StudyError(FILE, f"standard output: cannot be written ({refusals[0].strerror})")
+        if options.refused:
+            raise options.refused
         return DONE
     return guarded(work, "stopped by the user; boxes that are finished are kept, the same command goes on")

@@ -5,7 +5,7 @@ import math
 import numpy as np
 
 from polybed.calibration.fit import relative_errors, shear_number
-from polybed.calibration.output import columns
+from polybed.tables import right_table
 
 
 def listed(values):
@@ -40,18 +40,18 @@ def measured(mean, per=1.0):
     return f"{mean[0] / per:.4g}±{mean[1] / per:.1g}"
 
 
-# Column of a box: (heading, width, its number or text)
-PLACE = (("phi", 5, lambda box: f"{box['solids_fraction']:g}"), ("St", 5, lambda box: f"{box['stokes']:g}"),
-         ("e", 5, lambda box: f"{box['restitution']:g}"), ("mu_p", 5, lambda box: f"{box['friction']:g}"),
-         ("x2", 5, lambda box: f"{box['share']:g}"), ("seed", 4, lambda box: f"{box['seed']}"))
-SHEARED = (("theta/(g d)^2", 14, lambda box: measured(box["theta_m2_s2"], math.pow(box["shear_rate_1_s"] * box["diameter_m"], 2))),
-           ("p", 14, lambda box: measured(box["pressure_Pa"], unit_of(box) * box["shear_rate_1_s"])),
-           ("mu", 14, lambda box: measured(box["viscosity_Pa_s"], unit_of(box))),
-           ("p/ref", 5, lambda box: f"{box['p_ratio'][0]:.3g}"), ("mu/ref", 6, lambda box: f"{box['mu_ratio'][0]:.3g}"),
-           ("G/ref", 5, lambda box: f"{box['gamma_ratio'][0]:.3g}"))
-OF_TWO = (("T_2/T_1", 15, lambda box: measured(box["temperature_ratio"])),
-          ("beta_12/ref", 15, lambda box: measured(box["exchange_ratio"]) if box["pushed"] else ""),
-          ("slip", 8, lambda box: f"{box['slip_over_sqrt_theta']:.3f}"))
+# Column of a box: (heading, its number or text)
+PLACE = (("phi", lambda box: f"{box['solids_fraction']:g}"), ("St", lambda box: f"{box['stokes']:g}"),
+         ("e", lambda box: f"{box['restitution']:g}"), ("mu_p", lambda box: f"{box['friction']:g}"),
+         ("x2", lambda box: f"{box['share']:g}"), ("seed", lambda box: f"{box['seed']}"))
+SHEARED = (("theta/(g d)^2", lambda box: measured(box["theta_m2_s2"], math.pow(box["shear_rate_1_s"] * box["diameter_m"], 2))),
+           ("p", lambda box: measured(box["pressure_Pa"], unit_of(box) * box["shear_rate_1_s"])),
+           ("mu", lambda box: measured(box["viscosity_Pa_s"], unit_of(box))),
+           ("p/ref", lambda box: f"{box['p_ratio'][0]:.3g}"), ("mu/ref", lambda box: f"{box['mu_ratio'][0]:.3g}"),
+           ("G/ref", lambda box: f"{box['gamma_ratio'][0]:.3g}"))
+OF_TWO = (("T_2/T_1", lambda box: measured(box["temperature_ratio"])),
+          ("beta_12/ref", lambda box: measured(box["exchange_ratio"]) if box["pushed"] else ""),
+          ("slip", lambda box: f"{box['slip_over_sqrt_theta']:.3f}"))
 MEANING = """phi: solids fraction; St: Stokes number of the shear; e, mu_p: restitution and friction of particles
 x2: share of the second species; theta: granular temperature; g, d: shear rate and diameter
 p, mu: pressure and viscosity of the solids over density, g and d; ref: by kinetic theory
@@ -65,11 +65,11 @@ def unit_of(box):
 
 def table_lines(boxes, quantities):
     """A line for each box, at most 100 columns wide, below what is the same in all of them."""
-    texts = {name: [text(box) for box in boxes] for name, _, text in PLACE + quantities}
-    same = [name for name, _, _ in PLACE[1:-1] if len(set(texts[name])) == 1]
-    head = [(name, width) for name, width, _ in PLACE + quantities if name not in same]
+    texts = {name: [text(box) for box in boxes] for name, text in PLACE + quantities}
+    same = [name for name, _ in PLACE[1:-1] if len(set(texts[name])) == 1]
+    head = [name for name in texts if name not in same]
     shared = f"in all boxes {', '.join(f'{name} {texts[name][0]}' for name in same)}\n" if same else ""
-    return shared + columns(head, zip(*(texts[name] for name, _ in head)))
+    return shared + right_table(head, zip(*map(texts.get, head)))
 
 
 def between(values, digits):

@@ -11,6 +11,7 @@ from polybed.cost.scene import Scene
 from polybed.files import contents_of, read_json, read_text
 from polybed.in_place import put_text
 from polybed.ending import NUMBERS, WRONG_CASE, StudyError, answer
+from polybed.study.cases import Case
 
 TIME_ALLOWED, ROUNDING = 0.25, 1e-9
 
@@ -35,7 +36,7 @@ def scene_of(sweep):
     with tempfile.TemporaryDirectory() as folder:
         then = Path(folder) / "case.toml"
         then.write_text(sweep["case"], encoding="utf-8")
-        before = Scene(then, overrides)
+        before = Case(then, overrides)
     now = Scene(path, overrides)
     if now.text != before.text:
         raise StudyError(WRONG_CASE, f"{path} was changed since it was swept: `polybed cost {path} --force` first")

@@ -1,7 +1,6 @@
 """The command line of polybed cost."""
 
 import argparse
-import os
 import re
 from pathlib import Path
 
@@ -10,15 +9,15 @@ from polybed.cost.axes import MACHINE, MAKERS, MODEL, NUMERICS, STATISTICS
 from polybed.cost.check import check_recommendation
 from polybed.cost.judge import measure_distances, measure_errors, rank, settings_text
 from polybed.cost.reference import find_reference
-from polybed.cost.report import SweepOf, sweep_json, sweep_markdown, write_sweep
+from polybed.cost.report import sweep_json, sweep_markdown, write_sweep
 from polybed.cost.runner import Runner
 from polybed.cost.scene import Scene
 from polybed.cost.sweep import CANDIDATE, SweepOptions
 from polybed.cost.sweeper import Sweeper, common_overrides
 from polybed.program import name_of
-from polybed.runner import call, commit_and_build, words_of
+from polybed.runner import call, words_of
 from polybed.study import output_folder
-from polybed.study.record import remark
+from polybed.study.record import draw
 from polybed.ending import DONE, FILE, NUMBERS, WRONG_CASE, StudyError, answer, guarded
 
 SECONDS = {"us": 1e-6, "ms": 1e-3, "s": 1.0, "min": 60.0, "h": 3600.0}
@@ -115,16 +114,9 @@ def run_sweep(scene, options, runner):
     return sweep
 
 
-def overrides_of(given):
-    """Those of the command line; a time with a unit is a text of the case file."""
-    if not given.until:
-        return given.set
-    return [*given.set, "run.until=" + (given.until if re.fullmatch(r"[0-9.eE+-]*", given.until) else f'"{given.until}"')]
-
-
 def sweep(given):
     case = given.words[0]
-    scene = Scene(case, overrides_of(given))
+    scene = Scene(case, given.set, given.until)
     folder = given.output or Path("runs") / f"{name_of(case)}-cost"
     if (folder / "cost.json").exists() and not given.resume and not given.force:
         raise StudyError(WRONG_CASE, f"{folder} contains a study already: --resume continues it, --force replaces it")
@@ -135,11 +127,11 @@ def sweep(given):
     overrides = [*scene.overrides, *common_overrides(scene)]
     with output_folder.taken(folder):
         found = run_sweep(scene, options, Runner(scene, overrides, output_folder.subfolder(folder, "runs"), given.resume))
-        of = SweepOf(os.path.abspath(case), scene, overrides, *commit_and_build())
-        no_picture = write_sweep(found, of, folder, given.picture)
-        answer(sweep_json(found, of) if given.json else f"{sweep_markdown(found, of)}\n{folder / 'cost.json'}")
-    if no_picture:
-        remark(f"no picture: {no_picture}")
+        record = sweep_json(found, scene, overrides)
+        text = write_sweep(record, folder)
+        answer(text if given.json else f"{sweep_markdown(record)}\n{folder / 'cost.json'}")
+        if given.picture:
+            draw(folder / "cost.json", "picture", given.json or given.quiet)
     return found.outcome == "done"
 
 

@@ -6,7 +6,7 @@ from polybed.cost.axes import NUMERICS
 from polybed.cost.fit import Priced, pareto_front
 from polybed.cost.quantities import LENGTH, SHARE
 from polybed.cost.sweep import CANDIDATE, REFERENCE, RowQuantity
-from polybed.cost.words import in_words, part
+from polybed.cost.words import in_words
 from polybed.study.measured import means_of
 
 FLOOR_FACTOR = 10  # of the disagreement of two references
@@ -114,46 +114,3 @@ def settings_text(sweep, row):
     shown = [in_words(axis.name, axis.levels[level_of(row, axis)].label) for axis in sweep.axes
              if axis.kind == NUMERICS or level_of(row, axis) != axis.given]
     return ", ".join(shown + ([row.note] if row.note else [])) or "as given"
-
-
-def percent(share):
-    return f"{100 * share:.2g} %"
-
-
-def given_row(sweep):
-    """The row of the case as it is given."""
-    return next((row for row in sweep.rows if row.kind == CANDIDATE and not row.note and
-                 all(level_of(row, axis) == axis.given for axis in sweep.axes)), None)
-
-
-def recommendation_text(sweep):
-    name, target = sweep.ranking, percent(sweep.options.target)
-    if sweep.recommended is None:
-        return f"No run has an error of at most {target} in {name}, its interval included."
-    row = sweep.rows[sweep.recommended]
-    quantity = row.quantities[name]
-    within = f" +- {percent(quantity.error_interval)}" if quantity.error_interval else ""
-    text = (f"For an error of at most {target} in {name} use {settings_text(sweep, row)}: its error is {percent(quantity.error)}{within}, "
-            f"it takes {row.rate:.3g} s of computing for a simulated second")
-    given = given_row(sweep)
-    if given is not None and given.done and given is not row and given.rate > 0:
-        text += f", the case as given {given.rate / row.rate:.3g} times that"
-    return text + "."
-
-
-def advice(sweep):
-    """Advice in words, a sentence each."""
-    if sweep.outcome != "done":
-        return [f"Refused: {sweep.reason}."]
-    lines = [recommendation_text(sweep)]
-    known = [share for share in sweep.attribution if share.value is not None]
-    unknown = [share for share in sweep.attribution if share.axes]
-    largest = max(known, key=lambda share: share.value, default=None)
-    if largest is not None and largest.value > 0:
-        lines.append(f"The largest part of the error{' of those measured' if unknown else ''}: {part(largest.row)} ({percent(largest.value)})"
-                     f"{'' if unknown else ': that is what to improve'}.")
-    if unknown:
-        lines.append(f"Not measured, and not part of these errors: {'; '.join(part(share.row) for share in unknown)}. "
-                     f"To measure them: --axes {','.join(axis for share in unknown for axis in share.axes)}.")
-    loose = [part(share.row) for share in known if largest.value > 0 and 10 * share.value < largest.value]
-    return lines + ([f"At least ten times smaller, so it may be loosened to save time: {'; '.join(loose)}."] if loose else [])

@@ -1,25 +1,21 @@
-"""What a sweep leaves: cost.json, cost.md and pictures."""
+"""What a sweep leaves: cost.json, and cost.md and cost.html, which say the same in words."""
 
 import os
 from math import isfinite
-from typing import NamedTuple
 
-from polybed.cost.judge import advice, level_of, scale_of, settings_text
-from polybed.cost.scene import Scene
-from polybed.cost.sweep import REFERENCE as KIND_REFERENCE
-from polybed.cost.words import CLOCKS, REFERENCE, STATUS, case_name, part
+from polybed.cost.judge import level_of, scale_of
+from polybed.cost.words import CLOCKS, REFERENCE, STATUS, in_words, part, percent
 from polybed.cost.work import VERSION, weighed
+from polybed.drawing.units import text
 from polybed.in_place import put_text
+from polybed.program import name_of
+from polybed.runner import commit_and_build
 from polybed.study.record import json_text
+from polybed.tables import markdown_table
 
-
-class SweepOf(NamedTuple):
-    """The case of a sweep, and the program."""
-    path: str
-    scene: Scene
-    overrides: list
-    commit: str
-    build: str
+ALWAYS = ("rtol", "grid", "scheme", "steps", "coupling")  # axes whose level each row tells, the others where it is not that of the first row
+OUTCOMES = {"refused": "No recommendation", "failed": "The sweep failed"}
+MADE_OF = ("what the error is made of", "change where a datum is off by its usual uncertainty")
 
 
 def processor():
@@ -29,15 +25,6 @@ def processor():
             return next((line.partition(":")[2].strip() for line in file if line.startswith("model name")), "unknown")
     except OSError:
         return "unknown"
-
-
-def plain(value):
-    """As the program writes JSON: whole numbers without a point, up to those that are not exact."""
-    if isinstance(value, dict):
-        return {key: plain(entry) for key, entry in value.items()}
-    if isinstance(value, (list, tuple)):
-        return [plain(entry) for entry in value]
-    return int(value) if isinstance(value, float) and value.is_integer() and abs(value) < 1e16 else value
 
 
 def finite(value):
@@ -71,95 +58,101 @@ def recommendation_json(sweep):
 def shares_json(shares):
     most = max([0.0, *(share.value or 0.0 for share in shares)])
     return [{"row": share.row, "value": finite(share.value), "share": share.value / most if share.value is not None and most > 0 else None,
-             "note": share.note} for share in shares]
+             "note": share.note, "axes": share.axes} for share in shares]
 
 
-def sweep_json(sweep, of):
-    """cost.json. Raises StudyError if a number is not finite."""
+def sweep_json(sweep, scene, overrides):
+    """cost.json as a dictionary."""
     laws = {f"{what}_of_{axis}": sweep.laws.get(f"{what}_of_{axis}") for axis in ("rtol", "grid") for what in ("error", "cost")}
     reference = {name: {key: value for key, value in sorted(getattr(sweep.reference, name).items()) if isfinite(value)}
                  for name in ("floor", "value", "band")}
     quantities = [q._asdict() | {"scale": scale_of(sweep, q.id), "shown": q.id in sweep.options.quantities} for q in sweep.quantities]
-    found = {
-        "filetype": "polybed cost", "version": 1, "git_commit": of.commit, "case": of.scene.text, "case_path": of.path,
-        "case_hash": of.scene.hash, "overrides": of.overrides, "model": sweep.options.model, "clock": sweep.options.clock,
+    commit, build = commit_and_build()
+    return {
+        "filetype": "polybed cost", "version": 1, "git_commit": commit, "case": scene.text, "case_path": os.path.abspath(scene.path),
+        "case_hash": scene.hash, "overrides": overrides, "model": sweep.options.model, "clock": sweep.options.clock,
         "work_version": VERSION, "target": sweep.options.target, "budget_s": sweep.options.budget,
-        "machine": {"cpu": processor(), "cores": len(os.sched_getaffinity(0)), "build": of.build}, "outcome": sweep.outcome,
+        "machine": {"cpu": processor(), "cores": len(os.sched_getaffinity(0)), "build": build}, "outcome": sweep.outcome,
         "reason": sweep.reason, "regime": sweep.regime, "window_s": sweep.on.window.begin,
         "reference": {"kind": sweep.reference.kind, "note": sweep.reference.note, **reference}, "qoi": quantities,
         "runs": [row_json(sweep, row) for row in sweep.rows],
         "fit": {name: law._asdict() if law else None for name, law in laws.items()} | {"additive_off": finite(sweep.additive_off)},
         "pareto": [n for n, row in enumerate(sweep.rows) if row.status == "pareto"], "recommend": recommendation_json(sweep),
         "attribution": shares_json(sweep.attribution), "inputs": shares_json(sweep.inputs), "warnings": sweep.warnings}
-    return json_text(plain(found))
 
 
-def percent(share):
-    return "-" if share is None else f"{100 * share:.2g}"
+def settings_words(found, run):
+    """The settings of a run in words, and what is special about it."""
+    first = next((one["settings"] for one in found["runs"] if one["settings"]), {})
+    words = [in_words(axis, level) for axis, level in run["settings"].items() if axis in ALWAYS or level != first.get(axis)]
+    return ", ".join(words + ([run["note"]] if run["note"] else [])) or run["kind"]
 
 
-def cell_of(row, name):
-    quantity = row.quantities.get(name)
-    if quantity is None:
-        return "-"
-    return percent(quantity.error) + (f" +- {percent(quantity.error_interval)}" if quantity.error_interval else "")
+def advice(found):
+    """Advice in words, a sentence each, the recommendation first."""
+    name = next((q["id"] for q in found["qoi"] if q["shown"]), "")
+    lines = [f"For an error of at most {percent(one['target'])} in {one['qoi']} use {settings_words(found, found['runs'][one['run']])}: "
+             f"error {percent(one['error'], one['ci'])}, {text(one['s_per_sim_s'], 's')} of computing for a simulated second"
+             f"{'' if one['confirmed'] else ' (not confirmed by a second run)'}." for one in found["recommend"]]
+    if found["outcome"] != "done":
+        return [f"{OUTCOMES[found['outcome']]}: {found['reason']}."]
+    lines = lines or [f"No run has an error of at most {percent(found['target'])} in {name}, its interval included."]
+    known = [share for share in found["attribution"] if share["value"] is not None]
+    unknown = [share for share in found["attribution"] if share.get("axes")]
+    largest = max(known, key=lambda share: share["value"], default={"value": 0})
+    if largest["value"] > 0:
+        lines.append(f"The largest part of the error{' of those measured' if unknown else ''}: {part(largest['row'])} ({percent(largest['value'])})"
+                     f"{'' if unknown else ': that is what to improve'}.")
+    if unknown:
+        lines.append(f"Not measured, and not part of these errors: {'; '.join(part(share['row']) for share in unknown)}. "
+                     f"To measure them: --axes {','.join(axis for share in unknown for axis in share['axes'])}.")
+    loose = [part(share["row"]) for share in known if largest["value"] > 0 and 10 * share["value"] < largest["value"]]
+    return lines + ([f"At least ten times smaller, so it may be loosened to save time: {'; '.join(loose)}."] if loose else [])
 
 
-def status_of(sweep, number):
-    """How much dearer a dominated row is than the cheapest that is at least as accurate; whether a row is recommended."""
-    row = sweep.rows[number]
-    if sweep.recommended == number:
-        return f"**recommended** for {100 * sweep.options.target:.2g} % in {sweep.ranking}"
-    if row.kind == KIND_REFERENCE and row.done:
-        return "reference"
-    if row.status != "dominated":
-        return STATUS.get(row.status, row.status)
-    error = row.quantities[sweep.ranking].error
-    least = min([row.rate, *(r.rate for r in sweep.rows if r.status == "pareto" and r.quantities[sweep.ranking].error <= error)])
-    return f"{row.rate / least:.2g} times as dear as another as accurate" if 0 < least < row.rate else STATUS["dominated"]
+def runs_of(found):
+    """Head and rows of the table of runs."""
+    shown = [q["id"] for q in found["qoi"] if q["shown"]]
+    advised = {one["run"] for one in found["recommend"]}
+    rows = []
+    for n, run in enumerate(found["runs"]):
+        state = STATUS.get(run["status"], run["status"])
+        if run["status"] == "hollow" and (run["kind"] == "reference" or not found["reference"]["kind"]):
+            state = "reference" if run["kind"] == "reference" else "not ranked: there is no reference"
+        errors = [run["qoi"].get(name, {}) for name in shown]
+        rows.append([n, settings_words(found, run), text(run["s_per_sim_s"], "s") if run["s_per_sim_s"] > 0 else percent(None),
+                     *(percent(error.get("error"), error.get("error_ci")) for error in errors), "recommended" if n in advised else state])
+    return ["#", "settings", "for a simulated second", *(f"error of {name}" for name in shown), ""], rows
 
 
-def table_of(sweep):
-    names = sweep.options.quantities
-    lines = ["| # | settings | s for a simulated s | work, s | CPU, s |" + "".join(f" error of {name}, % |" for name in names) + " |",
-             "| ---: | --- | ---: | ---: | ---: |" + " ---: |" * len(names) + " --- |"]
-    for n, row in enumerate(sweep.rows):
-        cells = [str(n), settings_text(sweep, row), f"{row.rate:.3g}", f"{weighed(row.outcome.counters):.3g}", f"{row.outcome.cpu:.3g}",
-                 *(cell_of(row, name) for name in names), status_of(sweep, n)]
-        lines.append(f"| {' | '.join(cells)} |")
-    return lines
+def shares_of(found):
+    """(title, rows) of what the error is made of, and of the changes by the data of the case; those with rows."""
+    parts = zip(MADE_OF, (found["attribution"], found["inputs"]))
+    return [(title, [[part(row["row"]), percent(row["value"]), row["note"]] for row in rows]) for title, rows in parts if rows]
 
 
-def shares_of(title, shares):
-    rows = [f"| {part(share.row)} | {percent(share.value)} | {share.note} |" for share in shares]
-    return ["", f"| {title} | % | |", "| --- | ---: | --- |", *rows] if rows else []
+def definitions(found):
+    """What the numbers are, in sentences."""
+    kind, note = found["reference"]["kind"], found["reference"].get("note")
+    return (f"Computing times are {CLOCKS[found['clock']]}. An error is the distance from the reference: {REFERENCE.get(kind, kind)}"
+            f"{f' ({note})' if note else ''}.")
 
 
-def sweep_markdown(sweep, of):
-    reference = sweep.reference
-    note = f" ({reference.note})" if reference.note else ""
-    lines = [f"{case_name(of.path)} by polybed {sweep.options.model}; the bed is {'chaotic' if sweep.chaotic else 'not chaotic'}; computing times are "
-             f"{CLOCKS[sweep.options.clock]}",
-             f"an error is the distance from the reference: {REFERENCE[reference.kind]}{note}", "", *advice(sweep), "", *table_of(sweep),
-             *shares_of(f"what the error of {sweep.ranking} is made of", sweep.attribution),
-             *shares_of(f"change of {sweep.ranking} where a datum is off by its usual uncertainty", sweep.inputs)]
-    if sweep.additive_off is not None:
-        lines += ["", f"errors of the parts added in squares are off by {100 * sweep.additive_off:.2g} %"]
-    for warning in sweep.warnings:
+def sweep_markdown(found):
+    lines = [f"{name_of(found['case_path'])} by polybed {found['model']}; the bed is {'chaotic' if found['regime'] == 'chaotic' else 'not chaotic'}. "
+             + definitions(found), "", *advice(found), "", markdown_table(*runs_of(found))]
+    for title, rows in shares_of(found):
+        lines += ["", markdown_table([title, "", ""], rows)]
+    if found["fit"]["additive_off"] is not None:
+        lines += ["", f"errors of the parts added in squares are off by {percent(found['fit']['additive_off'])}"]
+    for warning in found["warnings"]:
         lines += ["", f"warning: {warning}"]
-    lines += ["", f"outcome {sweep.outcome}, commit {of.commit}"]
-    return "\n".join(lines) + "\n"
+    return "\n".join([*lines, "", f"outcome {found['outcome']}, commit {found['git_commit']}"]) + "\n"
 
 
-def write_sweep(sweep, of, folder, picture):
-    """All of them. Returns why there is no picture, if one was asked for."""
-    put_text(folder / "cost.json", sweep_json(sweep, of) + "\n")
-    put_text(folder / "cost.md", sweep_markdown(sweep, of))
-    if not picture:
-        return ""
-    try:
-        from polybed.plot import study_drawn  # what draws takes longer to import than all else
-        study_drawn(folder / "cost.json")
-    except Exception as error:  # what lies in the folder is complete without its picture
-        return str(error)
-    return ""
+def write_sweep(found, folder):
+    """cost.json and cost.md; the text of the first."""
+    record = json_text(found)
+    put_text(folder / "cost.json", record + "\n")
+    put_text(folder / "cost.md", sweep_markdown(found))
+    return record

@@ -1,9 +1,9 @@
 """The case of a sweep as the program resolves it."""
 
 import resource
-import tomllib
 
 from polybed.runner import answer_of, words_of
+from polybed.study.cases import Case
 
 LEAST_MODULUS = 5e6  # Pa, core::least_modulus: what contacts have unless the case says otherwise
 
@@ -13,15 +13,14 @@ def children_seconds():
     return used.ru_utime + used.ru_stime
 
 
-class Scene:
-    """A case with settings of its own, as `polybed check` has it. Raises ProgramError if it is wrong."""
+class Scene(Case):
+    """A case with settings of its own, and what `polybed check` says of it."""
 
-    def __init__(self, path, overrides):
+    def __init__(self, path, overrides, until=None):
+        super().__init__(path, overrides, until)
         before = children_seconds()
-        found = answer_of("check", path, *words_of(overrides))
+        self.needs = answer_of("check", path, *words_of(self.overrides))
         self.seconds = children_seconds() - before  # CPU time of the check, which balances the forces on the bed
-        self.path, self.overrides, self.text, self.hash, self.needs = path, list(overrides), found["case"], found["hash"], found
-        self.keys = tomllib.loads(self.text)
 
     def of(self, path, default=None):
         """The value of a key, "tfm.rtol"; the default if the case has none."""
@@ -31,10 +30,6 @@ class Scene:
     def law(self, role):
         """The law of a role in [effects]; "none" if it is off."""
         return self.of(f"effects.{role}", "none")
-
-    @property
-    def species(self):
-        return [species["name"] for species in self.keys["species"]]
 
     @property
     def cells(self):

@@ -18,12 +18,6 @@ AXES = {"rtol": "relative tolerance (tfm.rtol)", "grid": "cells", "steps": "step
 CLOCKS = {"work": "counted work", "wall": "wall time"}
 
 
-def case_name(path):
-    """The case by its folder, as runs are called."""
-    parts = path.replace("\\", "/").split("/")
-    return parts[-2] if parts[-1] == "case.toml" and len(parts) > 1 else parts[-1]
-
-
 def in_words(axis, level):
     """A level of an axis: "relative tolerance (tfm.rtol) 0.001"."""
     return f"{AXES.get(axis, axis)} {level}"
@@ -31,3 +25,10 @@ def in_words(axis, level):
 
 def part(row):
     return PARTS.get(row, row)
+
+
+def percent(share, error=None):
+    """"0.4 ± 0.1 %"; a dash for what is not known."""
+    if share is None:
+        return "\u2013"
+    return f"{100 * share:.2g}" + (f" \u00b1 {100 * error:.1g}" if error else "") + " %"

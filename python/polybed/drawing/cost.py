@@ -1,10 +1,16 @@
-"""Error across, seconds for a simulated second up, both logarithmic, a panel for each quantity."""
+"""The picture of a sweep of costs, error across and seconds for a simulated second up in a panel for each quantity; and cost.html."""
+
+import shlex
 
 import matplotlib.pyplot as plt
 
-from polybed.cost.words import AXES, CLOCKS, case_name
+from polybed.cost.report import advice, definitions, runs_of, shares_of
+from polybed.cost.words import AXES, CLOCKS
 from polybed.drawing.style import COLOURS, GREY, NAMES, PALE, fitted, shortened
+from polybed.page import Html, file_name, listing, markup, page, picture, section, source, table, warnings
+from polybed.program import name_of
 from polybed.record import title_of_case
+from polybed.runner import words_of
 
 MARKS = ["o", "s", "^", "D", "v", "P"]
 LEAST = 1e-7  # an error of 0 is drawn here
@@ -95,4 +101,28 @@ def draw(sweep, _folder=None):
 
 def title_of(sweep):
     """Title of the case, else its name."""
-    return title_of_case(sweep) or case_name(sweep["case_path"])
+    return title_of_case(sweep) or name_of(sweep["case_path"])
+
+
+STORED = ("output.every=", "output.history_every=", "output.checkpoint_every=")  # that every study sets by itself
+
+
+def text_of(sweep, path):
+    """cost.html: what to use, what it costs, what the error is made of, and how to make it again."""
+    measured = any(q["id"] in run["qoi"] for run in sweep["runs"] for q in sweep["qoi"] if q["shown"])
+    drawn = picture(draw(sweep) if measured else None, "all runs; " + file_name(path), "error against computing time")
+    overrides = [override for override in sweep["overrides"] if not override.startswith(STORED)]
+    axes = next((run["settings"] for run in sweep["runs"] if run["settings"]), {})
+    words = ["polybed", "cost", sweep["case_path"], *words_of(overrides), "--model", sweep["model"],
+             *(["--axes", ",".join(axes)] if axes else []),
+             "--clock", sweep["clock"], "--budget", f"{sweep['budget_s']:g}s", "--target", f"{100 * sweep['target']:g}%", "-o", str(path.parent), "--force"]
+    use, *more = advice(sweep)
+    keys = Html().join(listing(shlex.join(words_of(one["overrides"]))) for one in sweep["recommend"] if one["overrides"])
+    text = markup('<div class="card"><p>{}</p>{}</div>', use, keys) + Html().join(markup("<p>{}</p>", line) for line in more)
+    body = [section("use", "What to use", text), section("picture", "Error against computing time", drawn),
+            section("runs", "Runs", table(*runs_of(sweep), "last") + source(
+                f"{definitions(sweep)} " + " ".join(f"{q['id']}: {q['definition']}." for q in sweep["qoi"] if q["shown"]))),
+            section("made", "What the error is made of", Html().join(table([title, "", ""], rows, "last") for title, rows in shares_of(sweep))),
+            warnings(sweep["warnings"]), section("commands", "How to make it again", listing(shlex.join(words)))]
+    under = f"accuracy and computing time, {NAMES.get(sweep['model'], sweep['model'])} \u00b7 " + file_name(sweep["case_path"])
+    return page(title_of(sweep), under, Html().join(body))

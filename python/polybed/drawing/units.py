@@ -32,3 +32,11 @@ def text(value, unit, digits=3):
     """A number with the unit that fits, as in 2.3 mm/s."""
     factor, name = fitting(unit, abs(value))
     return f"{value * factor:.{digits}g} {name}".strip()
+
+
+def duration(seconds):
+    """A length of time for people: "42 s", "3 min 20 s", "2 h 5 min"."""
+    s = int(seconds + 0.5)
+    if s < 60:
+        return f"{s} s" if s else f"{seconds:.2g} s"
+    return f"{s // 60} min {s % 60} s" if s < 3600 else f"{s // 3600} h {s % 3600 // 60} min"

@@ -16,6 +16,7 @@ from polybed.study import output_folder
 from polybed.study.cases import laws_of
 from polybed.ending import DONE, NUMBERS, WRONG_CASE, StudyError, answer, guarded
 from polybed.study.record import draw, remark, write_record
+from polybed.tables import text_table
 
 INTERVAL = (2.5, 97.5)  # per cent of the draws
 FORM_OFF = 1e-9  # of the force, between this package and the program: rounding
@@ -142,10 +143,9 @@ def sum_rule(points, nets, form):
 
 def told(record):
     every = record["errors"]["all"]
-    lines = [f"{'':20}{'mean':>8}{'rms':>8}{'greatest':>10}   % of {every['fitted']['points']} forces"]
-    for what, name in COLUMNS:
-        if every[what]:
-            lines.append(f"{name:20}{every[what]['mean']:8.2f}{every[what]['rms']:8.2f}{every[what]['greatest']:10.1f}")
+    rows = [[name, f"{every[what]['mean']:.2f}", f"{every[what]['rms']:.2f}", f"{every[what]['greatest']:.1f}"]
+            for what, name in COLUMNS if every[what]]
+    lines = [text_table([f"% of {every['fitted']['points']} forces", "mean", "rms", "greatest"], rows)]
     band = {name: f"{100 * value:.1f} %" for name, value in record["band"].items() if value is not None}
     return "\n".join([*lines, "band: " + ", ".join(f"{name} {value}" for name, value in band.items()),
                       f"{record['law']}: use it as drag = \"file:{record['law']}\""])

@@ -4,6 +4,8 @@ import csv
 
 import numpy as np
 
+from polybed.tables import markdown_table
+
 COLUMNS = (("published", "published constants"), ("fitted", "fitted"), ("row_left_out", "row left out"),
            ("voidage_left_out", "voidages left out"))
 
@@ -13,31 +15,28 @@ def cell(found):
 
 
 def error_table(record):
-    lines = ["| rows | " + " | ".join(name for _, name in COLUMNS) + " | forces |", "| --- |" + " --- |" * (len(COLUMNS) + 1)]
-    for source, found in record["errors"].items():
-        cells = " | ".join(cell(found[what]) for what, _ in COLUMNS)
-        lines.append(f"| {source} | {cells} | {found['fitted']['points'] if found['fitted'] else 0} |")
-    return lines
+    return markdown_table(["rows", *(name for _, name in COLUMNS), "forces"],
+                          [[source, *(cell(found[what]) for what, _ in COLUMNS), found["fitted"]["points"] if found["fitted"] else 0]
+                           for source, found in record["errors"].items()])
 
 
 def constant_table(record):
-    lines = ["| constant | published | fitted | 95 % interval |", "| --- | ---: | ---: | --- |"]
-    for name, value in record["constants"].items():
+    def interval(name):
         between = record["interval"].get(name)
-        text = f"{between[0]:.4g} to {between[1]:.4g}" if between else "kept" if name not in record["free"] else "-"
-        lines.append(f"| `{name}` | {record['published'][name]:.5g} | {value:.5g} | {text} |")
-    return lines
+        return f"{between[0]:.4g} to {between[1]:.4g}" if between else "kept" if name not in record["free"] else "-"
+    return markdown_table(["constant", "published", "fitted", "95 % interval"],
+                          [[f"`{name}`", f"{record['published'][name]:.5g}", f"{value:.5g}", interval(name)]
+                           for name, value in record["constants"].items()])
+
+
+def band_table(record):
+    names = (("one_size", "n of one size"), ("common", "n, the factor that all sizes of a packing have in common"),
+             ("ratio", "ratio of two sizes"), ("ratio_fine", "ratio of two sizes, the finer below half the Sauter diameter"))
+    return markdown_table(["quantity", "band (rms)"], [[text, percent(record["band"][name])] for name, text in names])
 
 
 def percent(value):
     return "-" if value is None else f"{100 * value:.2g} %"
-
-
-def band_lines(record):
-    band = record["band"]
-    names = (("one_size", "n of one size"), ("common", "n, the factor that all sizes of a packing have in common"),
-             ("ratio", "ratio of two sizes"), ("ratio_fine", "ratio of two sizes, the finer below half the Sauter diameter"))
-    return ["| quantity | band (rms) |", "| --- | ---: |", *(f"| {text} | {percent(band[name])} |" for name, text in names)]
 
 
 def sum_rule_line(worst):
@@ -54,10 +53,10 @@ def page(record):
         "## Errors", "",
         "Mean of absolute values / root mean square / greatest relative error of n_j in %, evaluated by `polybed drag` with the law file.",
         "Row left out: by a fit without the point (to first order). Voidages left out: by six fits, each without a sixth of the voidages.",
-        "", *error_table(record), "",
+        "", error_table(record), "",
         "## Constants", "",
         f"Intervals by {record['bootstrap']} fits to rows drawn anew from each file. Constants that these rows do not determine are kept.",
-        "", *constant_table(record), "",
+        "", constant_table(record), "",
         f"From the constants alone the force on a row is uncertain by at most {percent(record['from_constants'])} (one standard deviation).",
         "", "## Constraints", "",
         "- f = 1 at voidage 1 and Re 0: an identity of the form.",
@@ -65,7 +64,7 @@ def page(record):
         f"{percent(constraints['greatest_violation'])} between neighbouring points of a grid.",
         sum_rule_line(constraints["sum_rule"]),
         f"- The guard answers on rows by up to {percent(record['guard_answers_by'])} other than the fitted form.", "",
-        "## Band to state with a result", "", *band_lines(record), "",
+        "## Band to state with a result", "", band_table(record), "",
         "`--closure-uncertainty` of `polybed inversion` and `polybed tfm` takes it from the law file.", ""])
 
 

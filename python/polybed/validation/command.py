@@ -6,6 +6,7 @@ import math
 import shlex
 from pathlib import Path
 
+from polybed.drawing.units import duration
 from polybed.ending import DONE, FILE, NUMBERS, WRONG_CASE, StudyError, answer, guarded
 from polybed.folder import read_record
 from polybed.in_place import put_text
@@ -14,6 +15,7 @@ from polybed.runner import commit_and_build, flags, has_checkpoint, run, sources
 from polybed.study.cases import Case
 from polybed.study.output_folder import taken
 from polybed.study.record import json_text, remark
+from polybed.tables import text_table
 from polybed.validation import report
 from polybed.validation.entries import MODELS, NO_RUN, entry_named, folder, names
 from polybed.validation.numbers import UNDECIDED, Undecided, inversion_interval, inversion_of, measured_number, of_seeds, verdict
@@ -111,13 +113,6 @@ def work_of(options):
     return pairs
 
 
-def duration(seconds):
-    for unit, size in (("h", 3600), ("min", 60)):
-        if seconds >= 1.5 * size:
-            return f"{seconds / size:.2g} {unit}"
-    return f"{seconds:.2g} s"
-
-
 def listed():
     """What held when results were last recorded, a line for each entry and model."""
     recorded = report.read_recorded(folder())
@@ -137,7 +132,7 @@ def list_entries(options):
     if options.json:
         answer(json_text(rows))
     else:
-        answer(report.text_table(("bed", "model", "takes", "at the last recorded results"),
+        answer(text_table(("bed", "model", "takes", "at the last recorded results"),
                                  [(row["entry"], row["model"], "-" if row["seconds"] is None else duration(row["seconds"]), row["held"])
                                   for row in rows]))
     return DONE
@@ -172,7 +167,7 @@ def validate(options):
     if options.json:
         answer(json_text({"blocks": blocks, "page": str(path)}))
     else:
-        lines = [report.text_table(report.HEAD, [report.cells(row) for row in rows]), report.counted(rows), *map(str, (path, *written))]
+        lines = [text_table(report.HEAD, [report.cells(row) for row in rows]), report.counted(rows), *map(str, (path, *written))]
         answer("\n".join(lines))
     return DONE
 

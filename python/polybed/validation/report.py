@@ -6,6 +6,7 @@ from polybed.files import FormatError, read_json, read_text
 from polybed.in_place import put_text
 from polybed.page import Html, markup, page, section, source
 from polybed.page import table as html_table
+from polybed.tables import markdown_table
 from polybed.validation.numbers import INSIDE, OUTSIDE, UNDECIDED
 
 HEAD = ("bed", "run", "model", "quantity", "measured", "of the model", "joint", "verdict", "CPU s")
@@ -32,18 +33,6 @@ def cells(row):
     seconds = "-" if row["cpu_s"] is None else f"{row['cpu_s']:.2g}"
     return [row["entry"], row["run"], row["model"], row["quantity"] + unit, shown(row["measured"]), shown(row["result"]) + runs,
             "-" if joint is None else f"± {joint:.2g}", told, seconds]
-
-
-def text_table(head, rows):
-    """Columns under each other; the last cell of a line keeps no blanks behind it."""
-    lines = [list(map(str, line)) for line in (head, *rows)]
-    widths = [max(len(line[n]) for line in lines) for n in range(len(head))]
-    return "\n".join("  ".join(cell.ljust(width) for cell, width in zip(line, widths)).rstrip() for line in lines)
-
-
-def markdown_table(head, rows):
-    lines = [head, ["---"] * len(head), *rows]
-    return "\n".join(f"| {' | '.join(map(str, line))} |" for line in lines)
 
 
 def counted(rows):

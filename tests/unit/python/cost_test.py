@@ -19,9 +19,10 @@ os.environ["POLYBED"] = PROGRAM
 from polybed.cost import command, quantities  # noqa: E402
 from polybed.cost.axes import axes_of, grid_level, level_axis, numbers  # noqa: E402
 from polybed.cost.fit import Priced, fit_power_law, pareto_front  # noqa: E402
-from polybed.cost.judge import advice, carries  # noqa: E402
+from polybed.cost.judge import carries  # noqa: E402
 from polybed.cost.refinement import refine  # noqa: E402
-from polybed.cost.sweep import Share, Sweep, SweepOptions  # noqa: E402
+from polybed.cost.report import advice, shares_json  # noqa: E402
+from polybed.cost.sweep import Share  # noqa: E402
 from polybed.cost.sweeper import is_chaotic  # noqa: E402
 from polybed.cost.work import counters_of, weighed  # noqa: E402
 from polybed.ending import StudyError  # noqa: E402
@@ -152,7 +153,7 @@ class Judgement(unittest.TestCase):
         self.assertFalse(carries(0.002, [], 0.01))
 
     def advised(self, *attribution):
-        return advice(Sweep(SweepOptions(quantities=["bed_height"]), attribution=list(attribution)))
+        return advice({"outcome": "done", "recommend": [], "target": 0.01, "qoi": [], "attribution": shares_json(attribution)})
 
     def test_advice_names_the_largest_row_to_improve_where_all_were_measured(self):
         lines = self.advised(Share("time integration", 1e-6, "rtol"), Share("space", 0.02, "grid"))
