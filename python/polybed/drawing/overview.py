@@ -1,11 +1,14 @@
 """picture.png of a run, the one that a run draws at its end: maps, profiles and history in one."""
 
 import matplotlib.pyplot as plt
+import numpy as np
 
 from polybed.drawing import particles
+from polybed.drawing.curves import heights, profile_panel
 from polybed.drawing.fields import fractions, thin_apart, voidages
+from polybed.drawing.history import draw_panel, key, time_axis
 from polybed.drawing.maps import axes_at, draw_map, draw_scale, frame, map_size
-from polybed.drawing.style import GREY, PALE, fitted, length_unit, shown_height, species_line, title_of
+from polybed.drawing.style import PALE, fitted, length_unit, shown_height, title_of
 from polybed.read import nearest
 
 MAP_HEIGHT = 5.2  # inches
@@ -20,13 +23,8 @@ def draw_profiles(axes, run, time):
     if not profiles or len(profiles["time_s"]) == 0:
         axes.set_axis_off()
         return
-    row = nearest(profiles["time_s"], time)
-    height = profiles["y_m"] * length_unit(run)[0]
-    for n, classes in enumerate(run.kinds.values()):
-        if all(f"phi_{name}" in profiles for name in classes):
-            axes.plot(sum(profiles[f"phi_{name}"][row] for name in classes), height, **species_line(n))
-    if "voidage" in profiles:
-        axes.plot(profiles["voidage"][row], height, color=GREY, linestyle=":", linewidth=1)
+    for line in profile_panel(run, "phi", nearest(profiles["time_s"], time)).lines:
+        axes.plot(line.x, line.y * length_unit(run)[0], **line.looks | ({"linestyle": ":", "linewidth": 1} if line.number is None else {}))
     axes.set_xlim(0, 1)
     axes.set_title("lateral mean")
     axes.set_xlabel("volume fraction (dotted: voidage)" if "voidage" in profiles else "volume fraction")
@@ -35,26 +33,16 @@ def draw_profiles(axes, run, time):
 
 def draw_history(axes, run, time):
     history = run.history
-    if not history or len(history["time_s"]) == 0:
+    if not len(history.get("time_s", ())):
         axes.set_axis_off()
         return
-    factor, unit = length_unit(run)
-    t = history["time_s"]
-    for n, name in enumerate(run.kinds):
-        column = history.get(f"centre_{name}_m")
-        if column is not None:
-            axes.plot(t, column * factor, label=f"centre of {name}", **species_line(n))
-    if "bed_height_m" in history:
-        axes.plot(t, history["bed_height_m"] * factor, color=GREY, linestyle="--", linewidth=1, label="bed height")
-        dense = history.get("dense_height_m", history["bed_height_m"])
-        if (history["bed_height_m"] > SUSPENDED * dense).any():
-            axes.plot(t, dense * factor, color=GREY, linestyle=":", linewidth=1, label="dense bed")
+    bed = history.get("bed_height_m", np.empty(0))
+    suspended = (bed > SUSPENDED * history.get("dense_height_m", bed)).any()
+    for panel in heights(run, ("bed_height_m", "dense_height_m") if suspended else ("bed_height_m",)):
+        draw_panel(axes, panel)
+        key(axes)
     axes.axvline(time, color=PALE, linewidth=0.8, zorder=0)
-    axes.set_xlim(t[0], t[-1] if t[-1] > t[0] else t[0] + 1)
-    axes.set_ylim(bottom=0)
-    axes.set_xlabel("time (s)")
-    axes.set_ylabel(f"height ({unit})")
-    axes.legend(loc="center left", bbox_to_anchor=(1.01, 0.5), fontsize=8)
+    time_axis(axes, history["time_s"])
 
 
 def layout_of(count, size):

@@ -3,8 +3,8 @@
 import matplotlib.pyplot as plt
 import numpy as np
 
-from polybed.drawing.style import EMPTY, FEW_SOLIDS, GREY, PALE, fitted, length_unit, levels, species_line, title_of
-from polybed.drawing.units import fitting
+from polybed.drawing.curves import profile_kinds, profile_panel
+from polybed.drawing.style import EMPTY, FEW_SOLIDS, GREY, PALE, fitted, length_unit, levels, title_of
 from polybed.read import nearest
 
 
@@ -25,60 +25,27 @@ def mark_levels(axes, run, time, factor, named):
         axes.axhline(level * factor, color=GREY, linestyle=line, linewidth=1, zorder=0, label=name if named else None)
 
 
-def draw_quantity(axes, run, row, kind, factor, scale=1.0):
-    """One quantity of every species; neither velocity nor temperature where the species is absent."""
-    profiles, height = run.profiles, run.profiles["y_m"] * factor
-    for n, name in enumerate(run.species):
-        if f"{kind}_{name}" not in profiles:
-            continue
-        values = profiles[f"{kind}_{name}"][row] * scale
-        if kind != "phi":
-            values = np.where(profiles[f"phi_{name}"][row] > FEW_SOLIDS, values, np.nan)
-        axes.plot(values, height, label=name, **species_line(n))
-
-
-def draw_fractions(axes, run, row, factor):
-    draw_quantity(axes, run, row, "phi", factor)
-    if "voidage" in run.profiles:
-        axes.plot(run.profiles["voidage"][row], run.profiles["y_m"] * factor, color=GREY, linewidth=1, label="voidage")
-    axes.set_xlim(0, 1)
-    axes.set_xlabel("volume fraction")
-
-
-def greatest(run, row, kind):
-    """The greatest magnitude of a quantity at a stored time, of all species and the fluid; 0 without any."""
-    values = [np.abs(profile[row]) for name, profile in run.profiles.items() if name.startswith(f"{kind}_")]
-    return max([0.0] + [float(np.nanmax(v)) for v in values if np.isfinite(v).any()])
-
-
-def draw_velocities(axes, run, row, factor):
-    scale, unit = fitting("m/s", greatest(run, row, "u"))
-    draw_quantity(axes, run, row, "u", factor, scale)
-    if "u_fluid" in run.profiles:
-        height = run.profiles["y_m"] * factor
-        axes.plot(run.profiles["u_fluid"][row] * scale, height, color="black", linestyle=(0, (3, 1)), linewidth=1, label="fluid")
-    axes.axvline(0, color=PALE, linewidth=0.8, zorder=0)
-    most = max(1e-3, 1.1 * max(np.abs(axes.get_xlim())))
-    axes.set_xlim(-most, most)
-    axes.set_xlabel(f"mean vertical velocity ({unit})")
-
-
-def draw_pressure(axes, run, row, factor):
-    weight = value_at(run, "buoyant_weight_Pa", run.profiles["time_s"][row])
-    scale, unit = fitting("Pa", max(weight or 0, float(np.nanmax(np.abs(run.profiles["p"][row]))) if "p" in run.profiles else 0))
-    if "p" in run.profiles:
-        axes.plot(run.profiles["p"][row] * scale, run.profiles["y_m"] * factor, color="black")
-    if weight is not None:
-        axes.axvline(weight * scale, color=GREY, linestyle="-.", linewidth=1, label="buoyant weight")
-    axes.set_xlim(left=min(0, axes.get_xlim()[0]))
-    axes.set_xlabel(f"net pressure ({unit})")
-
-
-def draw_temperature(axes, run, row, factor):
-    scale, unit = fitting("m2/s2", greatest(run, row, "theta"))
-    draw_quantity(axes, run, row, "theta", factor, scale)
-    axes.set_xlim(0, max(1e-3, axes.get_xlim()[1]))  # of particles that move as one there is only rounding
-    axes.set_xlabel(f"granular temperature ({unit})")
+def draw_kind(axes, run, row, kind, factor):
+    """One kind of profile at a stored time over height."""
+    panel, profiles = profile_panel(run, kind, row), run.profiles
+    for line in panel.lines:
+        looks = {"color": "black" if kind != "phi" else GREY, "linestyle": (0, (3, 1)) if kind == "u" else "-", "linewidth": 1}
+        axes.plot(line.x * panel.scale[0], line.y * factor, label=line.label, **(looks if line.number is None else line.looks))
+    axes.set_xlabel(panel.label)
+    left, right = axes.get_xlim()
+    if kind == "phi":
+        axes.set_xlim(0, 1)
+    elif kind == "theta":
+        axes.set_xlim(0, max(1e-3, right))  # of particles that move as one there is only rounding
+    elif kind == "u":
+        axes.axvline(0, color=PALE, linewidth=0.8, zorder=0)
+        most = max(1e-3, 1.1 * max(-left, right))
+        axes.set_xlim(-most, most)
+    else:
+        weight = value_at(run, "buoyant_weight_Pa", profiles["time_s"][row])
+        if weight is not None:
+            axes.axvline(weight * panel.scale[0], color=GREY, linestyle="-.", linewidth=1, label="buoyant weight")
+        axes.set_xlim(left=min(0, left))
 
 
 def edges(centres):
@@ -130,10 +97,8 @@ def draw(run, time):
     axes = [upper.add_subplot(grid[0])]
     axes += [upper.add_subplot(grid[n], sharey=axes[0]) for n in (1, 2)]
     time = profiles["time_s"][row]
-    alone = "p" not in profiles and any(name.startswith("theta_") for name in profiles)  # particles without a fluid
-    third = draw_temperature if alone else draw_pressure
-    for ax, draw_one in zip(axes, (draw_fractions, draw_velocities, third)):
-        draw_one(ax, run, row, factor)
+    for ax, kind in zip(axes, profile_kinds(run)):
+        draw_kind(ax, run, row, kind, factor)
         mark_levels(ax, run, time, factor, named=ax is axes[0])
     axes[0].set_ylabel(f"height y ({unit})")
     axes[0].set_ylim(0, shown_top(run) * factor)

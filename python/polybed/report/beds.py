@@ -2,19 +2,20 @@
 
 import numpy as np
 
+from polybed.drawing.curves import mean_over, parts_of
 from polybed.drawing.maps import walls_of
 from polybed.drawing.style import COLOURS, FEW_SOLIDS, around_axis, as_shown, faces_across, in_plane, length_unit
 from polybed.drawing.units import fitting
 from polybed.particles import step_shown
 from polybed.read import kinds_among
 from polybed.record import case_of
-from polybed.report.classes import SUMS, mean_over, parts_of
 from polybed.report.pack import EMPTY, changes, levels, packed, plain_numbers, thinned
 
 MOST_CELLS = 40_000  # of one map; a finer one is averaged
 MOST_LEVELS = 24_000_000  # of all maps together: bytes before they are compressed
 MOST_TEXT = 4_000_000  # characters of all maps, and of all particles
 ROUND = 48  # corners of a circle
+SUMS = "the size classes of a species are added up; polybed plot RUN --what fields draws each"
 FEWEST_STEPS = 12  # of particles; fewer steps are not enough to see a motion: particles are left out instead
 
 

@@ -22,7 +22,7 @@ sys.path.insert(0, PACKAGE)
 import matplotlib.pyplot as plt
 import polybed
 from polybed import plot
-from polybed.drawing import animation, fields, history, maps, overview, particles, profiles, style
+from polybed.drawing import animation, curves, fields, history, maps, overview, particles, profiles, style
 from polybed.report import beds
 
 
@@ -323,22 +323,19 @@ class Particles(SampleRun):
         self.assertAlmostEqual(particles.shown_top(self.sample, [4]), 1.2 * 0.099, places=12)
 
     def test_the_ledger_shows_what_does_not_close(self):
-        figure, axes = plt.subplots()
-        history.draw_ledger(axes, self.sample)
-        lines = {line.get_label(): line.get_ydata() for line in axes.get_lines()}
+        def ledger(run):
+            return {line.label: line.y for line in curves.ledger(run)[0].lines}
+
+        lines = ledger(self.sample)
         # the sample's numbers: kinetic falls by 2 J/s, elastic by 1 J/s, 3 J/s are dissipated
         np.testing.assert_allclose(lines["stored"], -3 * self.sample.particles.time)
         np.testing.assert_allclose(lines["does not close"], 0, atol=1e-14)
         table = self.sample.history
         table["dissipated_J"][-1] += 0.5
-        run = type("Run", (), {"history": table})
-        figure, axes = plt.subplots()
-        history.draw_ledger(axes, run)
-        self.assertAlmostEqual(axes.get_lines()[-1].get_ydata()[-1], 0.5, places=14)
+        run = types.SimpleNamespace(history=table)
+        self.assertAlmostEqual(ledger(run)["does not close"][-1], 0.5, places=14)
         table["carried_out_J"] = np.where(np.arange(len(table["time_s"])) == len(table["time_s"]) - 1, -0.5, 0)
-        figure, axes = plt.subplots()
-        history.draw_ledger(axes, run)
-        lines = {line.get_label(): line.get_ydata() for line in axes.get_lines()}
+        lines = ledger(run)
         self.assertEqual(lines["carried out"][-1], -0.5)
         np.testing.assert_allclose(lines["does not close"], 0, atol=1e-14)
 

@@ -11,7 +11,8 @@ from report_pages import data_of
 from report_test import SampleRun, unpacked  # which adds the package to the path
 
 import polybed
-from polybed.report import beds, classes, pack
+from polybed.drawing import curves
+from polybed.report import beds, pack
 
 
 def renamed(text):
@@ -52,7 +53,7 @@ class SizeClasses(SampleRun):
 
     def test_velocities_are_means_weighted_with_the_fractions(self):
         # 0.1 at 3 m/s and 0.3 at 1 m/s: (0.3 + 0.3)/0.4 = 1.5 m/s; nothing: 0
-        np.testing.assert_allclose(classes.mean_over([np.array([3.0, 3]), np.array([1.0, 1])], [np.array([0.1, 0]), np.array([0.3, 0])]), [1.5, 0])
+        np.testing.assert_allclose(curves.mean_over([np.array([3.0, 3]), np.array([1.0, 1])], [np.array([0.1, 0]), np.array([0.3, 0])]), [1.5, 0])
 
 
 class KindsOfParticles(SampleRun):

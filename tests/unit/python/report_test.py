@@ -24,8 +24,8 @@ from report_pages import EVIL, Page, add_case, data_of
 
 import polybed
 from polybed import outflow
-from polybed.drawing import units
-from polybed.report import beds, build, card, pack, sections, series
+from polybed.drawing import curves, units
+from polybed.report import beds, build, card, pack, sections
 
 MOST_BYTES = 10e6  # of a page
 
@@ -308,7 +308,7 @@ class Outflow(unittest.TestCase):
 
     def test_panels(self):
         run = types.SimpleNamespace(history=self.history, species=["fine"], kinds={"fine": ["fine"]})
-        self.assertEqual([p["title"] for p in series.outflow_panels(run)], ["left the column (kg)", "recovery", "discharge rate (g/s)"])
+        self.assertEqual([panel.label for panel in curves.outflow(run)], ["left the column (kg)", "recovery", "discharge rate (g/s)"])
 
 
 class Written(unittest.TestCase):
