@@ -19,6 +19,7 @@
 #include "core/error.hpp"
 #include "core/numerics/mpi_start.hpp"
 #include "core/numerics/ranks.hpp"
+#include "core/output/directory.hpp"
 #include "core/output/files.hpp"
 #include "core/output/json.hpp"
 #include "core/print.hpp"
@@ -81,6 +82,11 @@ core::Json read_bed(const core::Json& question) {
   return nullptr;
 }
 
+core::Json mark(const core::Json& question) {
+  core::mark_directory(text_in(question, "folder"));
+  return nullptr;
+}
+
 core::Json ratios_of_table(const core::Json& question) {
   core::Json rows = core::Json::array();
   const tfm::SolidsTable table = tfm::read_solids_table(text_in(question, "table"));
@@ -101,12 +107,13 @@ class Service {
 
   core::Json answer(const core::Json& question) {
     static const std::map<std::string, core::Json (Service::*)(const core::Json&)> by_all{
-        {"case", &Service::read_case}, {"boxes", &Service::name_boxes}, {"run", &Service::run}};
-    static const std::map<std::string, core::Json (*)(const core::Json&)> by_first{{"table", shape_of_table},
-                                                                                   {"bed", read_bed},
-                                                                                   {"ratios", ratios_of_table},
-                                                                                   {"drag", drag_of_points},
-                                                                                   {"means", means_of_series}};
+        {"case", &Service::read_case},
+        {"boxes", &Service::name_boxes},
+        {"run", &Service::run},
+        {"take", &Service::take}};
+    static const std::map<std::string, core::Json (*)(const core::Json&)> by_first{
+        {"table", shape_of_table},   {"bed", read_bed},        {"mark", mark},
+        {"ratios", ratios_of_table}, {"drag", drag_of_points}, {"means", means_of_series}};
     const std::string asked = text_in(question, "ask");
     if (const auto found = by_all.find(asked); found != by_all.end()) return (this->*found->second)(question);
     core::Json answer;
@@ -191,9 +198,16 @@ class Service {
     return places;
   }
 
+  core::Json take(const core::Json& question) {
+    core::on_first(ranks_.get(),
+                   [&] { taken_.push_back(std::make_unique<core::OutputDirectory>(text_in(question, "folder"))); });
+    return nullptr;
+  }
+
   std::shared_ptr<const core::Ranks> ranks_;
   std::function<void()> show_;  ///< that the first rank has finished a box
   core::Scene scene_;
+  std::vector<std::unique_ptr<core::OutputDirectory>> taken_;
 };
 
 /// Answers questions until there are no more: each is a line with a JSON object, each answer a line of JSON. `ask`
@@ -207,6 +221,8 @@ class Service {
 ///   ratios {table, points}         of each [p, p one standard error up, mu, mu likewise] that a run reads from it
 ///   drag {law, partition, points}  of each [eps, Re, x1, D1, ...] the answers of polybed drag by name
 ///   means {series, ratios}         as polybed measure --series
+///   take {folder}                  null; the folder is made, marked and locked until there are no more questions
+///   mark {folder}                  null; the folder is made and marked
 /// A box is {"regime", "phi", "stokes", "restitution", "friction", "share", "binary", "pushed", "seed"}, of the case
 /// read before. Collective; the first rank reads and writes. Throws the error of a question.
 void answer_questions() {

@@ -249,6 +249,14 @@ void print_screen(const core::Scene& scene, std::vector<std::string> lines, cons
   core::print("more: --details (numerics, memory), --resolved (all keys); polybed effects, polybed estimate\n");
 }
 
+void print_json(core::Json json, const core::Scene& scene, const std::vector<std::string>& lines,
+                const std::vector<std::string>& notes) {
+  write_expected(json, scene, bed_of_case(scene));
+  write_size_classes(json, scene);
+  json.update({{"hash", core::case_hash(scene)}, {"lines", lines}, {"notes", notes}});
+  core::print("{}\n", core::json_text(json));
+}
+
 /// Adds the effects that each model of the case neglects.
 void add_left_out(const core::Scene& scene, const std::string& model, std::vector<std::string>& lines) {
   lines.push_back(card_line("left out", model + ": " + left_out_text(left_out(scene, model))));
@@ -280,16 +288,7 @@ void check_particle_scene(const core::Scene& scene, const std::vector<std::strin
   for (const std::string& warning : scene_warnings(scene)) notes.push_back(warning);
   note_choice(scene, {"dem"}, notes);
   note_costs(scene, notes);
-  if (options.json) {
-    core::Json json = {{"case", core::resolved_case(scene)}, {"hash", core::case_hash(scene)}};
-    write_particle_requirements(json, scene, need);
-    write_expected(json, scene, bed_of_case(scene));
-    write_size_classes(json, scene);
-    json["refused"] = refusals_of(scene);
-    json["notes"] = notes;
-    return core::print("{}\n", core::json_text(json));
-  }
-  if (options.details) {
+  if (options.details && !options.json) {
     print_size_classes(scene);
     print_particle_requirements(scene, need);
     for (const std::string& note : notes) core::print("{}\n", note);
@@ -298,6 +297,12 @@ void check_particle_scene(const core::Scene& scene, const std::vector<std::strin
   std::vector<std::string> lines = expectation_lines(scene, bed_of_case(scene));
   add_particles(scene, need, lines);
   add_left_out(scene, "dem", lines);
+  if (options.json) {
+    core::Json json = {{"case", core::resolved_case(scene)}};
+    write_particle_requirements(json, scene, need);
+    json["refused"] = refusals_of(scene);
+    return print_json(std::move(json), scene, lines, notes);
+  }
   print_screen(scene, lines, notes);
 }
 
@@ -356,29 +361,24 @@ void run_check(const RunOptions& options) {
   const std::vector<std::string> models = advised_models(scene, particles.has_value());
   note_choice(scene, models, derived.notes);
   if (particles) note_costs(scene, derived.notes);
-  if (options.json) {
-    core::Json json = {{"case", core::resolved_case(scene)},
-                       {"hash", core::case_hash(scene)},
-                       {"fluid_density_kg_m3", derived.fluid.density},
-                       {"fluid_viscosity_Pa_s", derived.fluid.viscosity}};
-    if (derived.sound > 0) json["speed_of_sound_m_s"] = derived.sound;
-    json["buoyant_weight_Pa"] = derived.weight;
-    json["static_height_m"] = scene.bed.static_height;
-    write_expected(json, scene, bed_of_case(scene));
-    write_requirements(json, scene, need);
-    if (particles) write_particle_requirements(json["dem"], scene, *particles);
-    write_size_classes(json, scene);
-    json["refused"] = refusals_of(scene);
-    if (json["refused"]["dem"].empty()) json["refused"]["dem"] = hindrances;  // found only by placing the particles
-    json["notes"] = derived.notes;
-    return core::print("{}\n", core::json_text(json));
-  }
-  if (options.details) return print_details(scene, derived, need, particles);
+  if (options.details && !options.json) return print_details(scene, derived, need, particles);
   std::vector<std::string> lines = expectation_lines(scene, bed_of_case(scene));
   if (derived.weight != 0) lines.push_back(card_line("weight", weight_text(scene, derived.weight)));
   add_continuum(scene, need, lines);
   if (particles) add_particles(scene, *particles, lines);
   for (const std::string& model : models) add_left_out(scene, model, lines);
+  if (options.json) {
+    core::Json json = {{"case", core::resolved_case(scene)},
+                       {"fluid_density_kg_m3", derived.fluid.density},
+                       {"fluid_viscosity_Pa_s", derived.fluid.viscosity}};
+    if (derived.sound > 0) json["speed_of_sound_m_s"] = derived.sound;
+    json.update({{"buoyant_weight_Pa", derived.weight}, {"static_height_m", scene.bed.static_height}});
+    write_requirements(json, scene, need);
+    if (particles) write_particle_requirements(json["dem"], scene, *particles);
+    json["refused"] = refusals_of(scene);
+    if (json["refused"]["dem"].empty()) json["refused"]["dem"] = hindrances;  // found only by placing the particles
+    return print_json(std::move(json), scene, lines, derived.notes);
+  }
   print_screen(scene, lines, derived.notes);
 }
 

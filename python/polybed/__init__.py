@@ -23,7 +23,7 @@ with needed(sys.argv[:1] == ["-m"]):  # what Python calls a program that it stil
     from polybed.quantities import Quantity
     from polybed.read import Run, read
     from polybed.solids_table import SolidsTable, read_table
-    from polybed.studies import cost, fit, measure, scan, table
+    from polybed.studies import cost, fit, measure, table
 
 show_plainly()
 
@@ -39,4 +39,4 @@ def __dir__() -> list[str]:
 
 
 __all__ = ["Check", "FormatError", "Particles", "ProgramError", "Quantity", "ReplacedError", "Run", "SolidsTable", "__version__", "calibrate",
-           "case", "check", "compare", "cost", "fit", "inversion", "measure", "read", "read_table", "run", "scan", "sweep", "table"]
+           "case", "check", "compare", "cost", "fit", "inversion", "measure", "read", "read_table", "run", "sweep", "table"]

@@ -16,7 +16,7 @@ from typing import Any
 import h5py
 import numpy as np
 
-from polybed.errors import PlainError
+from polybed.errors import PlainError, UnknownNameError
 
 VERSIONS = {
     "polybed fields": 1,
@@ -52,7 +52,7 @@ class ReplacedError(PlainError):
 
 
 # What a command tells in one line.
-FAULTS = (FormatError, ReplacedError, OSError)
+FAULTS = (FormatError, ReplacedError, UnknownNameError, OSError)
 # What taking apart something that does not hold what it should may raise.
 MISFITS = (KeyError, IndexError, TypeError, ValueError, AttributeError, ArithmeticError, MemoryError, RecursionError, RuntimeError)
 

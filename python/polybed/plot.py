@@ -22,11 +22,11 @@ with needed(False):
     from polybed.ending import WRONG_CASE, StudyError, made
     from polybed.files import FAULTS, contents_of, read_json
     from polybed.particles import step_shown
-    from polybed.read import Snapshot, nearest
+    from polybed.read import Snapshot, nearest, stored_times
 
 # Records of studies: kind of file, endings of the pictures, and the module with draw(record, folder) for these and, if there is a page,
 # text_of(record, path) for it.
-STUDIES = {"comparison.json": ("polybed comparison", (), "polybed.comparison"),
+STUDIES = {"comparison.json": ("polybed comparison", (), "polybed.drawing.comparison"),
            "inversion.json": ("polybed inversion", ("png",), "polybed.drawing.inversion_scan"),
            "cost.json": ("polybed cost", ("png", "svg"), "polybed.drawing.cost"),
            "stability.json": ("polybed stability", ("png", "svg"), "polybed.drawing.hard_cases"),
@@ -57,11 +57,6 @@ def study_drawn(path, out=None):
         if hasattr(study, "text_of") and not (paths and out):
             paths.append(put_text(path.with_suffix(".html"), study.text_of(found, path)))
         return paths
-
-
-def stored_times(run):
-    """The stored times of the particles; of the fields if there are no particles."""
-    return run.particles.time if len(run.particles) else run.time
 
 
 def step_of(run, time):

@@ -127,9 +127,19 @@ def name_of(case: Place) -> str:
     return path.parent.name if path.stem == "case" else path.stem
 
 
-def folder_of(case: Place, what: str, digest: str) -> Path:
-    """Default folder: runs/<case name>-<what>-<hash of the resolved case>, so that other overrides have another one."""
-    return Path("runs") / f"{name_of(case)}-{what}-{digest}"
+def folder_of(output: Place | None, case: Place, what: str, digest: str) -> Path:
+    """output, or runs/<case name>-<what>-<hash of the resolved case>, so that other overrides have another folder."""
+    return Path(output) if output else Path("runs") / f"{name_of(case)}-{what}-{digest[:DIGITS]}"
+
+
+def study_folder(output: Place | None, case: Place, what: str, words: list[str]) -> Path:
+    """Likewise for the case with these options."""
+    return Path(output) if output else folder_of(None, case, what, resolved(case, words)[1])
+
+
+def options_of(**values: Value) -> list[object]:
+    """Those of these options that have a value, as words of the command line."""
+    return [word for name, value in values.items() if value is not None for word in (f"--{name.strip('_')}", plain(value, name))]
 
 
 @names_itself
@@ -141,8 +151,7 @@ def check(case: Place, overrides: Overrides | None = None, until: Value | None =
     velocities at which the bed stands a share of 0.1, 0.3 and 0.5 higher than settled. See polybed.table for other velocities.
     "notes": warnings; "refused": why a model does not run it, empty if it does; "time" of computing; ...; "case": all keys, resolved
     """
-    words = (case, *settings(overrides, until))
-    return Check(answer_of("check", *words), words)
+    return Check(answer_of("check", case, *settings(overrides, until)))
 
 
 def made(case: Place, model: str, words: list[str], known: tuple[str, str], ranks: int, tell: Callable[[str], None], output: Path,
@@ -187,7 +196,7 @@ def run(case: Place, model: str = "tfm", overrides: Overrides | None = None, out
     must_be_model(model)
     words = settings(overrides, until)
     known = resolved(case, words)
-    place = Path(output) if output else folder_of(case, model, known[1][:DIGITS])
+    place = folder_of(output, case, model, known[1])
     if resume and not has_checkpoint(place):
         teller(quiet, label)(f"warning: {place} has no run to continue: it begins at 0 s\n")
     return made(case, model, words, known, ranks, teller(quiet, label), place, resume)
@@ -224,6 +233,8 @@ def sweep(case: Place, key: str | Mapping[str, Iterable[Value]], values: Iterabl
     Warns before the runs if effects that the case leaves to the program differ between them.
     """
     must_be_model(model)
+    if at_once < 1:
+        raise ValueError(f"at_once is {at_once}; it is 1 or more")
     axes = {key: values} if isinstance(key, str) else key
     lists = [list(each) if isinstance(each, Iterable) and not isinstance(each, str) else [each] for each in axes.values()]
     each = [dict(zip(axes, point)) for point in itertools.product(*lists)]
@@ -258,12 +269,12 @@ def compare(case: Place, tfm: Run | Place | None = None, dem: Run | Place | None
     output: default runs/<case name>-compare-<hash of the resolved case>
     page: also writes comparison.html
     """
-    output = Path(output) if output else folder_of(case, "compare", resolved(case, settings(overrides, until))[1][:DIGITS])
-    options: list[object] = []
-    for model, given in (("tfm", tfm), ("dem", dem)):
-        made = run(case, model, overrides, output / model, until, quiet=quiet, label=model) if given is None else given
-        options += [f"--{model}", getattr(made, "directory", made)]
-    call("compare", case, *settings(overrides, until), *options, "-o", output, *([] if page else ["--no-picture"]), tell=teller(quiet))
+    words = settings(overrides, until)
+    output = study_folder(output, case, "compare", words)
+    runs = {model: run(case, model, overrides, output / model, until, quiet=quiet, label=model) if given is None else given
+            for model, given in (("tfm", tfm), ("dem", dem))}
+    given = options_of(**{model: getattr(made, "directory", made) for model, made in runs.items()})
+    call("compare", case, *words, *given, "-o", output, *([] if page else ["--no-picture"]), tell=teller(quiet))
     return read_json(output / "comparison.json", "polybed comparison")
 
 
@@ -277,13 +288,11 @@ def inversion(case: Place, scan: str | None = None, overrides: Overrides | None 
     output: of a scan; default runs/<case name>-inversion-<hash of the resolved case>
     begin, end: velocities between which a scan begins, "30 mm/s"
     """
-    options: list[object] = ["inversion", case, *settings(overrides, until if scan else None), *(["--method", method] if method else [])]
+    words = settings(overrides, until if scan else None)
     if scan is None:
-        return answer_of(*options)
-    output = Path(output) if output else folder_of(case, "inversion", resolved(case, settings(overrides, until))[1][:DIGITS])
-    for option, velocity in (("--from", begin), ("--to", end)):
-        options += [] if velocity is None else [option, plain(velocity, option)]
-    call(*options, "--scan", scan, "-o", output, "--no-picture", tell=teller(quiet))
+        return answer_of("inversion", case, *words, *options_of(method=method))
+    output = study_folder(output, case, "inversion", words)
+    call("inversion", case, *words, *options_of(method=method, from_=begin, to=end, scan=scan), "-o", output, "--no-picture", tell=teller(quiet))
     return read_json(output / "inversion.json", "polybed inversion")
 
 

@@ -225,6 +225,11 @@ class Snapshot(Run):
     profiles = functools.cached_property(Run.profiles.fget)  # type: ignore[assignment, attr-defined]
 
 
+def stored_times(run: Run) -> np.ndarray:
+    """The stored times of the particles; of the fields if there are no particles."""
+    return run.particles.time if len(run.particles) else run.time
+
+
 def read(directory: str | os.PathLike[str]) -> Run:
     """Opens a run directory, of a finished or a running run."""
     return Run(directory)

@@ -149,10 +149,10 @@ def asked(question: str, **about: Any) -> Any:
 
 
 class Door:
-    """`polybed ask`, for questions that follow each other, on as many ranks as this process was started with. It speaks on standard error."""
+    """`polybed ask` on some ranks, for questions that follow each other. It speaks on standard error."""
 
-    def __init__(self) -> None:
-        self.child = start(["ask"], ranks(), True, stdin=subprocess.PIPE, stdout=subprocess.PIPE, encoding="utf-8", errors="surrogateescape")
+    def __init__(self, ranks: int) -> None:
+        self.child = start(["ask"], ranks, True, stdin=subprocess.PIPE, stdout=subprocess.PIPE, encoding="utf-8", errors="surrogateescape")
         self.questions: Any = self.child.stdin
         self.answers: Any = self.child.stdout
 

@@ -12,8 +12,8 @@ from typing import Any
 from polybed.checks import Check
 from polybed.files import read_json
 from polybed.folder import runs_in
-from polybed.overrides import Overrides, Value, plain
-from polybed.program import DIGITS, Place, folder_of, inversion, names_itself, resolved, settings, teller
+from polybed.overrides import Overrides, Value
+from polybed.program import Place, names_itself, options_of, settings, study_folder, teller
 from polybed.read import Run, read
 from polybed.runner import answer_of, call
 
@@ -43,19 +43,6 @@ def table(runs: Iterable[Run | Check | Place] | Run | Check | Place) -> Any:
 
 
 @names_itself
-def scan(case: Place, model: str = "both", overrides: Overrides | None = None, output: Place | None = None, until: Value | None = None,
-         begin: Value | None = None, end: Value | None = None, quiet: bool = False) -> dict[str, Any]:
-    """Scans for the velocity at which two species change places, by runs: what `polybed inversion CASE --scan` finds.
-
-    model: "tfm", "dem" or "both"
-    until: simulated time of each run, "20 s" or seconds; begin, end: superficial velocities of the first bracket, "30 mm/s" or m/s
-    output: default runs/<case name>-inversion-<hash of the resolved case>
-    Returns inversion.json as a dictionary: velocities in m/s. Raises ProgramError.
-    """
-    return inversion(case, model, overrides, output, until, begin, end, quiet=quiet)
-
-
-@names_itself
 def cost(case: Place, model: str | None = None, axes: tuple[str, ...] = (), target: str | None = None, budget: str | None = None,
          overrides: Overrides | None = None, output: Place | None = None, until: Value | None = None, picture: bool = False,
          quiet: bool = False) -> dict[str, Any]:
@@ -66,11 +53,11 @@ def cost(case: Place, model: str | None = None, axes: tuple[str, ...] = (), targ
     output: default runs/<case name>-cost-<hash of the resolved case>; a sweep that stands there goes on where it ended
     Returns cost.json as a dictionary: errors relative, times in seconds. Raises ProgramError.
     """
-    folder = Path(output) if output else folder_of(case, "cost", resolved(case, settings(overrides, until))[1][:DIGITS])
-    options: list[object] = ["cost", case, *settings(overrides, until), "-o", folder, *([] if picture else ["--no-picture"])]
-    for option, value in (("--model", model), ("--axes", ",".join(axes) or None), ("--target", target), ("--budget", budget)):
-        options += [] if value is None else [option, plain(value, option)]
-    call(*options, *(["--resume"] if (folder / "cost.json").exists() else []), tell=teller(quiet))
+    words = settings(overrides, until)
+    folder = study_folder(output, case, "cost", words)
+    again = ["--resume"] if (folder / "cost.json").exists() else []
+    call("cost", case, *words, "-o", folder, *options_of(model=model, axes=",".join(axes) or None, target=target, budget=budget), *again,
+         *([] if picture else ["--no-picture"]), tell=teller(quiet))
     return read_json(folder / "cost.json", "polybed cost")
 
 
@@ -94,6 +81,6 @@ def fit(rows: Place | Sequence[Place], form: str = "brinkman_oseen", output: Pla
         asked = {"rows": list(map(str, tables)), "form": form, "bootstrap": bootstrap, "seed": seed}
         if asked.items() <= there.items() and all(file.stat().st_mtime < found.stat().st_mtime for file in files if file.exists()):
             return there
-    options: list[object] = ["--form", form, "--bootstrap", bootstrap, "--seed", seed, *(["-o", output] if output else []),
-                             *(["--force"] if force else []), *([] if picture else ["--no-picture"]), *(["--quiet"] if quiet else [])]
-    return answer_of("fit", *tables, *options, tell=teller(quiet))
+    options = options_of(form=form, bootstrap=bootstrap, seed=seed, output=output)
+    flags = (("--force", force), ("--no-picture", not picture), ("--quiet", quiet))
+    return answer_of("fit", *tables, *options, *(flag for flag, wanted in flags if wanted), tell=teller(quiet))

@@ -17,7 +17,7 @@ OPENED = {"cpp": re.compile(r"\bstd::ifstream\b|\bfopen\(|(?<!\w)::open\(|\bH5[F
           "py": re.compile(r"(?<![\w.])open\((?!.*\"[wx]b?\")|\bos\.open\(|\.read_(text|bytes)\(|\bh5py\.File\((?!.*\"w\")")}
 OPENERS = {"core/output/files.cpp", "core/output/file.cpp", "python/polybed/files.py",
            "core/output/blocks.cpp", "python/polybed/in_place.py",  # what they have written
-           "core/output/directory.cpp", "python/polybed/study/output_folder.py",  # the mark
+           "core/output/directory.cpp",  # the mark
            "core/memory.cpp", "multiscale/run_record.cpp", "python/polybed/cost/report.py",  # of the system
            "app/process.cpp", "python/polybed/ending.py", "python/polybed/isolated.py"}
 SHIPPED = re.compile(r"__file__|\bBANDS\b")  # files of the package itself

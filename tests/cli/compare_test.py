@@ -18,8 +18,8 @@ from program import DONE, FILE, ROOT, STOPPED, WRONG_CASE, TWO_IN_WATER, Scratch
 
 sys.path.insert(0, str(ROOT / "python"))
 import polybed  # noqa: E402
-from polybed import comparison as page, plot  # noqa: E402
-from polybed.drawing import comparison as drawing  # noqa: E402
+from polybed import plot  # noqa: E402
+from polybed.drawing import comparison as page  # noqa: E402
 
 # 157 spheres of two sizes in rising water: both models take well below a second.
 BED = """[column]
@@ -138,9 +138,9 @@ class Comparison(Scratch):
                 # sums in another order
                 np.testing.assert_allclose(of["mean"], rows.mean(axis=0), rtol=1e-12, atol=1e-15)
                 np.testing.assert_allclose(of["error"], student * rows.std(axis=0, ddof=1) / np.sqrt(groups), rtol=1e-9, atol=1e-15)
-        figure = drawing.draw_profiles(runs, means)
+        figure = page.draw_profiles(runs, means)
         for axes, species in zip(figure.axes, ("fine", "coarse"), strict=True):
-            for line, band, (model, name) in zip(axes.lines, axes.collections, drawing.NAMES.items(), strict=True):
+            for line, band, (model, name) in zip(axes.lines, axes.collections, page.NAMES.items(), strict=True):
                 of = {what: np.array(values) for what, values in means[model][f"phi_{species}"].items()}
                 np.testing.assert_array_equal(line.get_xdata(), of["mean"])
                 edges = band.get_paths()[0].vertices[:, 0]
@@ -148,20 +148,19 @@ class Comparison(Scratch):
                 self.assertAlmostEqual(edges.min(), (of["mean"] - of["error"]).min(), delta=1e-12)
                 self.assertEqual((line.get_label(), band.get_label()), (name, f"{name}: 95 % interval of the mean"))
         alone = {m: {s: of | {"error": [None] * len(of["mean"])} for s, of in means[m].items()} for m in runs} | {"y_m": means["y_m"]}
-        self.assertEqual({line.get_label() for line in drawing.draw_profiles(runs, alone).axes[0].lines},
-                         {f"{name}, too few profiles for a band" for name in drawing.NAMES.values()})
+        self.assertEqual({line.get_label() for line in page.draw_profiles(runs, alone).axes[0].lines},
+                         {f"{name}, too few profiles for a band" for name in page.NAMES.values()})
 
     def test_the_interface_is_drawn_in_time(self):
         runs = {m: polybed.read(self.folder / "both" / m) for m in ("tfm", "dem")}
-        lines = {line.get_label(): line for line in drawing.draw_history(runs, self.found["window"]).axes[0].lines}
+        lines = {line.get_label(): line for line in page.draw_history(runs, self.found["window"]).axes[0].lines}
         for model, run in runs.items():
-            line = lines[f"interface, {drawing.NAMES[model]}"]
-            np.testing.assert_allclose(line.get_ydata(), run.history["interface_m"] * drawing.length_unit(runs["tfm"])[0])
-            self.assertEqual(line.get_color(), "black")
+            line = lines[f"interface, {page.NAMES[model]}"]
+            np.testing.assert_allclose(line.get_ydata(), run.history["interface_m"] * page.length_unit(runs["tfm"])[0])
 
     def test_the_table_for_people(self):
         told = self.given().stdout
-        for line in ("bed height [(]mm[)] .*[+]-", "on top", "e_H .*goal 0.05", "by the clock ", "particle steps", "centre of ",
+        for line in ("bed height [(]mm[)] .* ± ", "on top", "e_H .*goal 0.05", "by the clock ", "particle steps", "centre of ",
                      "comparison.json$"):
             self.assertRegex(told, f"(?m){line}")
         self.assertNotRegex(told, r"\w_(m|Pa)\b")  # a name of a column
@@ -244,7 +243,7 @@ class Comparison(Scratch):
         self.assertIn(f"<td>{1e3 * found['measures']['bed_height_m']['dem']:.4g} ± ", text)
         for name, score in found["scores"].items():
             if name != "order":
-                self.assertIn(f"<td>{page.score_words(name)}</td><td>{page.number(score['value'], score['error'])}</td>", text)
+                self.assertIn(f"<td>{page.score_words(name)}</td><td>{page.with_error(score['value'], score['error'])}</td>", text)
                 self.assertNotEqual(page.score_words(name), name, "a score is explained")
         self.assertRegex(text, f"<td>{page.SCORES['e_H']}</td><td>{found['scores']['e_H']['value']:.4g} ")
         self.assertIn(f"On top: two-fluid: {found['scores']['order']['tfm']['species']}", text)

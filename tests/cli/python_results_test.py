@@ -260,7 +260,7 @@ class Results(Scratch):
         self.assertEqual(set(polybed.check(polybed.case("liquid-bed"), own)["expected"]["u_mf_m_s"]), {"grit", "mixture"})
 
     def test_a_scan_is_an_inversion_by_runs(self):
-        found = polybed.scan(CASE, "tfm", {"output.history_every": "2 ms"}, self.folder / "scan", "0.8 s", quiet=True)
+        found = polybed.inversion(CASE, "tfm", {"output.history_every": "2 ms"}, self.folder / "scan", "0.8 s", quiet=True)
         self.assertEqual(found, strict_json((self.folder / "scan/inversion.json").read_text()))
         self.assertEqual(list(found["models"]), ["tfm"])
 

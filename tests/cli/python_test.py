@@ -204,6 +204,8 @@ class Package(Scratch):
         self.assertFalse((self.folder / "none").exists(), "nothing has run")
         with self.assertRaisesRegex(ValueError, "a sweep needs values for tfm.rtol"):
             polybed.sweep(CASE, "tfm.rtol")
+        with self.assertRaisesRegex(ValueError, "at_once is 0; it is 1 or more"):
+            polybed.sweep(CASE, "tfm.rtol", [1e-3], at_once=0)
 
 
 class Gallery(Scratch):

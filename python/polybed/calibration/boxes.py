@@ -7,7 +7,7 @@ from concurrent.futures import as_completed
 from polybed.drawing.units import duration
 from polybed.ending import FILE, NUMBERS, StudyError
 from polybed.files import FAULTS, contents_of, finite, read_text
-from polybed.runner import Door, side_by_side
+from polybed.runner import Door, ranks, side_by_side
 from polybed.study.record import remark
 
 # What is read of a box: numbers, and means with their standard error.
@@ -83,7 +83,7 @@ class Boxes:
     def run_alone(self, n):
         """Likewise one box, by a program of its own."""
         try:
-            with Door() as door:
+            with Door(ranks()) as door:
                 door.ask("case", case=self.options.case, settings=self.options.set)
                 return self.run_by(door, [n], lambda: None)
         except StudyError:  # the program has ended

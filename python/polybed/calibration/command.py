@@ -200,7 +200,7 @@ def main(arguments=None):
         signal.signal(stop, signal.default_int_handler)
 
     def work():
-        with Door() as door:
+        with Door(ranks()) as door:
             calibrate(options, door)
         if options.refused:
             raise options.refused

@@ -3,7 +3,6 @@
 import tempfile
 import tomllib
 from pathlib import Path
-from typing import NamedTuple
 
 from polybed.cost.quantities import measure_on, quantities_of_run
 from polybed.cost.runner import Runner, RunOrder
@@ -16,18 +15,11 @@ from polybed.study.cases import Case
 TIME_ALLOWED, ROUNDING = 0.25, 1e-9
 
 
-class Checked(NamedTuple):
-    claimed: float
-    found: float
-    allowed: float
-
-    @property
-    def holds(self):
-        return abs(self.found - self.claimed) <= self.allowed
-
-    def told(self, what, unit):
-        return (f"{what}: claimed {self.claimed:.4g}, found {self.found:.4g} {unit}, allowed {self.allowed:.2g} either way: "
-                f"{'holds' if self.holds else 'does not hold'}")
+def held(what, unit, claimed, found, allowed):
+    """Whether a claim holds, and a line that says so."""
+    holds = abs(found - claimed) <= allowed
+    return holds, (f"{what}: claimed {claimed:.4g}, found {found:.4g} {unit}, allowed {allowed:.2g} either way: "
+                   f"{'holds' if holds else 'does not hold'}")
 
 
 def scene_of(sweep):
@@ -71,9 +63,10 @@ def check_recommendation(folder):
         name, clock, claimed = advised["qoi"], sweep["clock"], advised["s_per_sim_s"]
         scale = next(q["scale"] for q in sweep["qoi"] if q["id"] == name)
         found = abs(measured.values[name].mean - sweep["reference"]["value"][name]) / scale
-        error = Checked(advised["error"], found, (advised["ci"] or 0) + ROUNDING)
-    time = Checked(claimed, outcome.rate(clock), TIME_ALLOWED * claimed)
-    answer(f"{error.told(f'error of {name}', '')}\n{time.told(f'time by {clock}', 's for a simulated second')}")
-    if error.holds and time.holds:
+        claims = (held(f"error of {name}", "", advised["error"], found, (advised["ci"] or 0) + ROUNDING),
+                  held(f"time by {clock}", "s for a simulated second", claimed, outcome.rate(clock), TIME_ALLOWED * claimed))
+    answer("\n".join(line for _, line in claims))
+    confirmed = all(holds for holds, _ in claims)
+    if confirmed:
         put_text(path, read_text(path).replace('"confirmed": false', '"confirmed": true', 1))
-    return error.holds and time.holds
+    return confirmed

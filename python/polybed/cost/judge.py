@@ -4,7 +4,7 @@ from math import hypot
 
 from polybed.cost.axes import NUMERICS
 from polybed.cost.fit import Priced, pareto_front
-from polybed.cost.quantities import LENGTH, SHARE
+from polybed.cost.quantities import SHARE
 from polybed.cost.sweep import CANDIDATE, REFERENCE, RowQuantity
 from polybed.cost.words import in_words
 from polybed.study.measured import means_of
@@ -24,7 +24,7 @@ def scale_of(sweep, quantity):
     info = next((q for q in sweep.quantities if q.id == quantity), None)
     if info is None or info.scale == SHARE:
         return 1.0
-    return abs(sweep.reference.value.get("bed_height" if info.scale == LENGTH else quantity, 0)) or 1.0
+    return abs(sweep.reference.value.get("bed_height", 0)) or 1.0
 
 
 def measure_errors(sweep, row):

@@ -7,11 +7,11 @@ from typing import NamedTuple
 import numpy as np
 
 from polybed.quantities import TABLE
-from polybed.study.measured import TimeMean, Window, centre_column, means_of, species_of, within
+from polybed.study.measured import Window, centre_column, means_of, species_of
 
 HELP = {row["name"]: row["help"] for part in ("bed", "distances") for row in TABLE[part]}
 ENOUGH = 30  # autocorrelation times in a window
-LENGTH, SHARE, ITSELF = "length", "share", "itself"  # what errors are relative to: the reference's bed height, 1, its value
+LENGTH, SHARE = "length", "share"  # what errors are relative to: the reference's bed height, or 1
 
 
 class QuantityInfo(NamedTuple):
@@ -48,29 +48,7 @@ def quantities_of(species):
     if len(species) > 1:
         found += [measure("centre_difference", "1", SHARE), measure("mixing", "1", SHARE), measure("interface", "m", LENGTH),
                   measure("composition", "1", SHARE)]
-    return [*found, measure("profile", "1", SHARE), QuantityInfo("pressure_rms", "1", "of the pressure drop over the buoyant weight", SHARE),
-            QuantityInfo("pressure_frequency", "1/s", "of the greatest Fourier term of the pressure drop", ITSELF)]
-
-
-def frequency_of(values, step):
-    """Dominant frequency of a series in equal steps, 1/s: the greatest term of its Fourier sum. None for a constant one."""
-    if len(values) < 8 or not step > 0:
-        return None
-    power = np.abs(np.fft.rfft(values - values.mean())) ** 2
-    best = 1 + int(np.argmax(power[1:]))
-    return best / (len(values) * step) if power[best] > 0 else None
-
-
-def fluctuations(run, mean, window):
-    """Root mean square and frequency of the pressure drop over the weight. mean: its TimeMean, or None"""
-    time, drop, weight = (within(run.history["time_s"], run.history[name], window) for name in
-                          ("time_s", "pressure_drop_Pa", "buoyant_weight_Pa"))
-    if mean is None or len(drop) < 8:
-        return {}
-    drop = drop / weight
-    found = {"pressure_rms": TimeMean(float(np.sqrt(np.mean((drop - mean.mean) ** 2))), None, mean.correlation)}
-    frequency = frequency_of(drop, (time[-1] - time[0]) / (len(time) - 1))
-    return found | ({} if frequency is None else {"pressure_frequency": TimeMean(float(frequency))})
+    return [*found, measure("profile", "1", SHARE)]
 
 
 def quantities_of_run(run, on):
@@ -91,7 +69,6 @@ def quantities_of_run(run, on):
         if mean.error and measured.rows < ENOUGH * mean.correlation:
             found.too_short = name
         found.values[name] = mean
-    found.values |= fluctuations(run, found.values.get("pressure_drop"), on.window)
     found.directory = run.directory if measured.profiles else None
     if len(species) > 1 and "interface_m" in measured.of_profile:
         found.values["interface"] = measured.of_profile["interface_m"]

@@ -11,11 +11,11 @@ from typing import NamedTuple
 from polybed.cost.work import counters_of, weighed
 from polybed.files import contents_of, read_json, read_text
 from polybed.in_place import put_text
+from polybed.read import Run
 from polybed.study.cases import hash_of
-from polybed.runner import run_within, words_of
+from polybed.runner import asked, run_within, words_of
 from polybed.ending import WRONG_CASE
-from polybed.study.measured import Measured, measured
-from polybed.study.output_folder import mark_folder
+from polybed.study.measured import measured
 
 MOST_SAID = 300  # characters of what a run that failed has said
 # What a run stores and a sweep does not read.
@@ -39,7 +39,7 @@ class RunOutcome:
     simulated: float = 0.0
     invariants_held: bool = True
     counters: dict = field(default_factory=dict)
-    measured: Measured | None = None
+    measured: Run | None = None
 
     @property
     def done(self):
@@ -105,7 +105,7 @@ class Runner:
         return path.exists() and not json.loads(read_text(path))["timed_out"]
 
     def start(self, order, folder, seconds):
-        mark_folder(folder)
+        asked("mark", folder=folder)
         (folder / "end.json").unlink(missing_ok=True)
         words = [order.model, str(self.scene.path), "--quiet", "--no-picture", "--force", "-o", str(folder)]
         words += words_of([*self.overrides, *order.overrides])

@@ -7,7 +7,7 @@ from matplotlib import animation
 from polybed import search
 from polybed.drawing.fields import voidages
 from polybed.drawing.maps import Group, draw_maps
-from polybed.drawing.particles import Views
+from polybed.drawing.particles import views_of
 from polybed.drawing.style import as_shown, fitted, greatest_fraction, in_plane, shown_height, title_of
 from polybed.in_place import in_place
 
@@ -42,7 +42,7 @@ def has_ffmpeg():
 def particle_frames(run):
     """The figure, the number of frames, and what draws the frame of that number."""
     digits = digits_of(run.particles.time)
-    views = Views(run, range(len(run.particles)))
+    views = views_of(run, range(len(run.particles)))
     return views.figure, len(run.particles), lambda step: views.show(step, digits)
 
 

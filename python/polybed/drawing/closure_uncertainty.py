@@ -5,7 +5,7 @@ import numpy as np
 
 from polybed.drawing.style import COLOURS, GREY, PALE
 from polybed.read import read
-from polybed.study.measured import centre_column, history_of, species_of
+from polybed.study.measured import centre_column, species_of
 
 
 def draw_inversion(record, figure):
@@ -26,7 +26,7 @@ def draw_inversion(record, figure):
 
 def series_of(folder):
     """Time, bed height and centre difference of a run."""
-    history = history_of(read(folder))
+    history = read(folder).history
     centres = [history[centre_column(name)] for name in species_of(history)][:2]
     difference = (centres[1] - centres[0]) / history["bed_height_m"] if len(centres) > 1 else np.empty(0)
     return history["time_s"], {"bed_height_m": history["bed_height_m"], "centre_difference": difference}

@@ -1,17 +1,30 @@
-"""Two runs of one case beside each other: maps and particles at an instant, mean profiles, and what is measured in time.
+"""Two runs of one case beside each other: maps and particles at an instant, mean profiles, what is measured in time; and comparison.html,
+the page of a comparison.json.
 
 The two-fluid model is drawn in full lines, the particles in broken ones, a species in its colour in both.
 """
+
+import shlex
+from pathlib import Path
 
 import matplotlib.pyplot as plt
 import numpy as np
 
 from polybed.drawing import particles
+from polybed.drawing.curves import heights
 from polybed.drawing.fields import fractions
+from polybed.drawing.history import key
+from polybed.drawing.inversion_scan import commands as scan_command
+from polybed.drawing.inversion_scan import on_ranks
 from polybed.drawing.maps import axes_at, draw_bar, draw_map, frame, map_size
 from polybed.drawing.profiles import shown_top
-from polybed.drawing.style import COLOURS, GREY, NAMES, PALE, length_unit
-from polybed.read import nearest
+from polybed.drawing.style import COLOURS, NAMES, PALE, drop_over_weight, length_unit
+from polybed.files import read_json
+from polybed.page import Html, file_name, listing, markup, page, picture, section, source, table, warnings
+from polybed.read import nearest, read, stored_times
+from polybed.record import title_of_case
+from polybed.runner import words_of
+from polybed.study.compare_report import measure_cells, with_error
 
 LINES = {"tfm": "-", "dem": "--"}
 DOTS = {"tfm": (0, (1, 2)), "dem": (0, (1, 5))}  # of the interface, which no species has a colour for
@@ -102,28 +115,147 @@ def draw_profiles(runs, means):
 
 def draw_history(runs, window):
     """Centres, bed height and interface in time, above the pressure drop over the buoyant weight; the window is shaded."""
-    figure, (heights, drop) = plt.subplots(2, 1, figsize=(8, 5.4), sharex=True, height_ratios=[2, 1],
-                                           constrained_layout=True)
+    figure, (upper, lower) = plt.subplots(2, 1, figsize=(8, 5.4), sharex=True, height_ratios=[2, 1], constrained_layout=True)
     factor, unit = length_unit(runs["tfm"])
     for model, run in runs.items():
-        history, line = run.history, LINES[model]
-        t = history["time_s"]
-        for n, name in enumerate(run.species):
-            heights.plot(t, history[f"centre_{name}_m"] * factor, color=colour(n), linestyle=line,
-                         label=f"centre of {name}, {NAMES[model]}")
-        heights.plot(t, history["bed_height_m"] * factor, color=GREY, linestyle=line, linewidth=1,
-                     label=f"bed height, {NAMES[model]}")
-        if np.isfinite(history.get("interface_m", np.nan)).any():  # empty where nothing is alike
-            heights.plot(t, history["interface_m"] * factor, color="black", linestyle=DOTS[model], linewidth=1,
-                         label=f"interface, {NAMES[model]}")
-        weight = history["buoyant_weight_Pa"]
-        ratio = np.divide(history["pressure_drop_Pa"], weight, out=np.full(len(t), np.nan), where=weight > 0)
-        drop.plot(t, ratio, color="black", linestyle=line, linewidth=1, label=NAMES[model])
-    for axes in (heights, drop):
+        for line in heights(run, ("bed_height_m", "interface_m"))[0].lines:
+            upper.plot(line.x, line.y * factor, color=line.looks["color"], linewidth=1 if line.number is None else 1.5,
+                       linestyle=DOTS[model] if line.label == "interface" else LINES[model], label=f"{line.label}, {NAMES[model]}")
+        ratio = drop_over_weight(run.history)
+        if ratio is not None:
+            lower.plot(run.history["time_s"], ratio, color="black", linestyle=LINES[model], linewidth=1, label=NAMES[model])
+    for axes in (upper, lower):
         axes.axvspan(window["begin_s"], window["end_s"], color=PALE, alpha=0.3, linewidth=0, zorder=0)
-        axes.legend(loc="center left", bbox_to_anchor=(1.01, 0.5), fontsize=8)
-    heights.set_ylim(bottom=0)
-    heights.set_ylabel(f"height ({unit})")
-    drop.set_ylabel("pressure drop\nover weight")
-    drop.set_xlabel("time (s)")
+        key(axes)
+    upper.set_ylim(bottom=0)
+    upper.set_ylabel(f"height ({unit})")
+    lower.set_ylabel("pressure drop\nover weight")
+    lower.set_xlabel("time (s)")
     return figure
+
+
+def commands(found, records, scan=None):
+    """The lines that make the runs, in place of those that are there, the scan that the inversion velocity is from (if it says
+    what it was asked for), and the comparison again, from the folder in which they were made."""
+    case = found["case"]
+    lines = []
+    for model, record in records.items():
+        words = [*on_ranks(record["ranks"]), "polybed", model, case, *words_of(record["overrides"])]
+        lines.append(words + ["-o", found["models"][model]["directory"], "--force"])
+    if scan and "scan" in scan:
+        lines.append(scan_command(scan))
+    words = ["polybed", "compare", case, *words_of(found["overrides"])]
+    for model in records:
+        words += [f"--{model}", found["models"][model]["directory"]]
+    if "inversion_file" in found:
+        words += ["--inversion", str(Path(found["inversion_file"]).parent)]
+    return "\n".join(shlex.join(words) for words in [*lines, words + ["-o", found["directory"]]])
+
+
+def folder_of(run, *parts):
+    """Name of a run's folder, or of a file in it, with the commit of the program that made the run."""
+    return file_name(run["directory"], *parts) + f" (commit {run['git_commit']})"
+
+
+SCORES = {"e_H": "bed height: two-fluid model over particles, less 1",
+          "e_b": "distance of the centres of two species over the bed height: difference of the models",
+          "D1": "layering: 0 if both models layer the species alike, 1 if one is upside down; "
+                "the difference in the share of species 2 over the solids counted from below, integrated",
+          "u_inv": "inversion velocity: two-fluid model over particles, less 1"}
+
+
+def score_words(name):
+    if name.startswith("profile_"):
+        return f"vertical profile of {name[len('profile_'):]}: difference of the models over height, over that of the particles"
+    return SCORES.get(name, name)
+
+
+def measure_row(name, measure):
+    """Words, numbers in the unit that fits, and the file."""
+    title, *numbers = measure_cells(name, measure)
+    return [title, *(with_error(*pair) for pair in numbers), "profiles.h5" if name == "interface_m" else "history.csv"]
+
+
+def measures(found):
+    rows = [measure_row(name, measure) for name, measure in found["measures"].items()]
+    folders = [folder_of(found["models"][model]) for model in ("tfm", "dem")]
+    return table(["", "two-fluid", "particles", "difference", "from"], rows) + source(
+        f"time means from {found['window']['begin_s']:.4g} to {found['window']['end_s']:.4g} s, with the half-width of their "
+        "95 % interval; files of " + Html(" and of ").join(folders))
+
+
+def scores(found):
+    rows = []
+    for name, score in found["scores"].items():
+        if name == "order":
+            continue
+        verdict = {True: "reached", False: Html('<span class="missed">missed</span>'), None: ""}[score["reached"]]
+        rows.append([score_words(name), with_error(score["value"], score["error"]), with_error(score["goal"]) if score["goal"] else "", verdict])
+    order = found["scores"]["order"]
+    top = [f"{NAMES[model]}: {order[model]['species']}" + ("" if order[model]["certain"] else " (within the uncertainty)")
+           for model in ("tfm", "dem") if order[model]]
+    verdict = {True: "the same", False: Html('<span class="missed">not the same</span>'), None: ""}[order["same"]]
+    told = markup("<p>On top: {}; {}.</p>", "; ".join(top), verdict) + source("means of the heights of the centres in history.csv of both runs") \
+        if top else ""
+    return Html("<p>How far apart the models are: 0 is no difference; a goal is reached if the value, whatever its interval, is at most the goal."
+                "</p>") + table(["", "value", "goal", ""], rows) + told + source(
+            "bed height and distance of the centres from history.csv, layering and profiles from profiles.h5 of both runs"
+            + ("; inversion velocity from " + file_name(found["inversion_file"]) if "inversion_file" in found else ""))
+
+
+def inversion(scan, path):
+    """What the scan has found of the inversion velocity itself, which the score u_inv is the quotient of."""
+    def in_mm(metres):
+        return None if metres is None else 1e3 * metres
+
+    rows = [[NAMES[model], with_error(in_mm(of["velocity_m_s"]), in_mm(of["error_m_s"])),
+             f"{with_error(in_mm(of['low_m_s']))} to {with_error(in_mm(of['high_m_s']))}", of["outcome"],
+             str(len(of["runs"])), with_error(of["cpu_s"])] for model, of in scan["models"].items()]
+    text = table(["", "mm/s", "between, mm/s", "ended by", "runs", "CPU s"], rows) + source(
+        file_name(path) + f" (commit {scan['git_commit']})")
+    made = [[NAMES[model], with_error(in_mm(run["velocity_m_s"])), with_error(run["centre_difference"], run["error"]), folder_of(run)]
+            for model, of in scan["models"].items() for run in of["runs"] if "git_commit" in run]
+    return text + (table(["its runs", "mm/s", "distance of the centres over the bed height", "from history.csv of"], made) if made else Html())
+
+
+def models(found):
+    rows = [[NAMES[model], run["state"], with_error(run["time_s"]), with_error(run["cpu_s"]), with_error(run["wall_s"]),
+             ", ".join(f"{name} {value:.4g}" for name, value in run["work"].items()),
+             folder_of(run, "run.json")] for model, run in found["models"].items()]
+    return table(["", "state", "simulated s", "CPU s", "s by the clock", "work", "from"], rows)
+
+
+def pictures(found, runs):
+    window, folders = found["window"], {model: run.directory for model, run in runs.items()}
+    both = Html(" and ").join(file_name(folders[model]) for model in ("tfm", "dem"))
+    tops = [shown_top(run) for run in runs.values() if run.profiles and len(run.profiles["time_s"])]
+    parts = []
+    for time in (0.0, window["begin_s"], window["end_s"]) if tops else ():
+        shown = [f"{NAMES[model]} at {times[nearest(times, time)]:.4g} s" for model, run in runs.items()
+                 if len(times := stored_times(run))]
+        parts.append(picture(draw_instant(runs, time, max(tops)),
+                             f"stored nearest to {time:.4g} s: {', '.join(shown)}; fields.h5 and particles.h5 of " + both))
+    if "mean_profiles" in found:
+        parts.append(picture(draw_profiles(runs, found["mean_profiles"]),
+                             "means over the window, band: half-width of the 95 % interval of the mean, from leaving out groups of "
+                             "successive profiles in turn; mean_profiles of comparison.json, from profiles.h5 of " + both))
+    parts.append(picture(draw_history(runs, window), "the window is shaded; history.csv of " + both))
+    return Html().join(parts)
+
+
+def text_of(found, path):
+    runs = {model: read(found["models"][model]["directory"]) for model in ("tfm", "dem")}
+    records = {model: run.record for model, run in runs.items()}
+    scan_path = Path(found["inversion_file"]) if "inversion_file" in found else None
+    scan = read_json(scan_path, "polybed inversion") if scan_path else None
+    lines = list(found["warnings"])
+    if scan and "scan" not in scan:
+        lines.append(f"{scan_path} does not hold what its scan was asked for, so that no command below makes it: scanned again, "
+                     "with the runs that are there, it does")
+    again = listing(commands(found, records, scan)) + source("all numbers: " + file_name(path) + f"; program of commit {found['git_commit']}")
+    body = [section("measures", "Both models", measures(found)), section("scores", "Scores", scores(found)),
+            section("inversion", "Inversion velocity", inversion(scan, scan_path) if scan else ""),
+            section("pictures", "Pictures", pictures(found, runs)), section("cost", "Cost", models(found)), warnings(lines),
+            section("commands", "How to make it again", again)]
+    title = title_of_case(records["tfm"]) or title_of_case(records["dem"]) or found["case"]
+    return page(title, "two-fluid model and particles beside each other \u00b7 " + file_name(found["case"]), Html().join(body))

@@ -19,7 +19,7 @@ def draw_panel(axes, panel):
         margin = 0.15 * max(high - low, 0.05)
         axes.set_ylim(min(low, 1) - margin, max(high, 1) + margin)
     for line in panel.lines:
-        axes.plot(line.x, line.y * factor, label=line.label, linewidth=1, **line.looks)
+        axes.plot(line.x, line.y * factor, label=line.label, linewidth=1.2 if line.number is not None else 1, **line.looks)
     if panel.logarithmic:
         axes.set_yscale("log")
     elif panel.zero:

@@ -52,9 +52,13 @@ OUTCOMES = {"bracket": "the range is narrow enough", "indistinct": "what is left
             "not found": "no change of places in the range"}
 
 
+def on_ranks(ranks):
+    return ["mpirun", "-n", str(ranks)] if ranks > 1 else []
+
+
 def commands(scan):
     """The words that make a scan again, or find it finished: range and end are those that it had, given or by default."""
-    words = [*(["mpirun", "-n", str(scan["ranks"])] if scan["ranks"] > 1 else []), "polybed", "inversion", scan["case"]]
+    words = [*on_ranks(scan["ranks"]), "polybed", "inversion", scan["case"]]
     words += [*words_of(scan["overrides"]), "--scan", scan["scan"]]
     for option, value in (("--from", f"{scan['from_m_s']!r} m/s"), ("--to", f"{scan['to_m_s']!r} m/s"),
                           ("--until", f"{scan['until_s']!r} s")):

@@ -7,7 +7,7 @@ from polybed.drawing import particles
 from polybed.drawing.curves import heights, profile_panel
 from polybed.drawing.fields import fractions, thin_apart, voidages
 from polybed.drawing.history import draw_panel, key, time_axis
-from polybed.drawing.maps import axes_at, draw_map, draw_scale, frame, map_size
+from polybed.drawing.maps import axes_at, draw_map, draw_scale, map_size
 from polybed.drawing.style import PALE, fitted, length_unit, shown_height, title_of
 from polybed.read import nearest
 
@@ -68,16 +68,7 @@ def draw_fields(run, step, maps, bars, top):
 
 
 def draw_particles(run, step, maps, bars, top):
-    shown = run.particles[step]
-    end, beyond = particles.fastest([shown])
-    colours = particles.species_colours(run, shown), particles.speed_colours(shown, end)
-    for n, title in enumerate(("species", "speed")):
-        frame(maps[n], run, title, top, first=n == 0)
-        particles.circles(maps[n], run, shown, colours[n])
-    particles.name_species(bars[0], run)
-    particles.speed_bar(bars[1], end, beyond)
-    figure = maps[0].figure
-    figure.text(0.5, 1 - 0.36 / figure.get_figheight(), particles.thinned(run, shown), ha="center", va="top", fontsize=7)
+    particles.Views(run, [step], maps, bars, top).show(step)
 
 
 def draw(run, step):

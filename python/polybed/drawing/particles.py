@@ -106,27 +106,16 @@ def speed_bar(axes, end, beyond):
 
 
 class Views:
-    """Two views side by side, by species and by speed, whose particles can be exchanged for those of another step."""
+    """Two views, by species and by speed, whose particles can be exchanged for those of another step. axes: of both, above those of keys"""
 
-    def __init__(self, run, steps):
-        self.run, self.top = run, shown_top(run, steps)
+    def __init__(self, run, steps, axes, keys, top):
+        self.run, self.axes, self.drawn, self.figure, self.title = run, axes, [], axes[0].figure, None
         self.end, beyond = fastest(run.particles[n] for n in steps)
-        width, height = map_size(run, self.top, HEIGHT)
-        across = max(LEFT + 2 * width + GAP + RIGHT, 4.2)
-        high = HEAD + height + BARS
-        start = (across - 2 * width - GAP) / 2 if across == 4.2 else LEFT
-        self.figure = plt.figure(figsize=(across, high))
-        rows = (BARS, height), (BARS - 0.6, 0.1)
-        places = [(start + n * (width + GAP), base, width, tall) for base, tall in rows for n in (0, 1)]
-        axes = [axes_at(self.figure, *place) for place in places]
-        self.views = axes[:2]
         for n, title in enumerate(("species", "speed")):
-            frame(axes[n], run, title, self.top, first=n == 0)
-        name_species(axes[2], run)
-        speed_bar(axes[3], self.end, beyond)
-        self.title = self.figure.suptitle("", y=1 - 0.16 / high, fontsize=10)
-        self.note = self.figure.text(0.5, 1 - 0.34 / high, "", ha="center", va="top", fontsize=7)
-        self.drawn = []
+            frame(axes[n], run, title, top, first=n == 0)
+        name_species(keys[0], run)
+        speed_bar(keys[1], self.end, beyond)
+        self.note = self.figure.text(0.5, 1 - 0.36 / self.figure.get_figheight(), "", ha="center", va="top", fontsize=7)
 
     def show(self, number, digits=".4g"):
         """Draws the particles of a step in place of those before."""
@@ -134,12 +123,27 @@ class Views:
             collection.remove()
         step = self.run.particles[number]
         colours = species_colours(self.run, step), speed_colours(step, self.end)
-        self.drawn = [circles(axes, self.run, step, of) for axes, of in zip(self.views, colours)]
+        self.drawn = [circles(axes, self.run, step, of) for axes, of in zip(self.axes, colours)]
         self.note.set_text(thinned(self.run, step))
-        self.title.set_text(fitted(title_of(self.run, step.time, digits=digits), self.figure, 10))
+        if self.title:
+            self.title.set_text(fitted(title_of(self.run, step.time, digits=digits), self.figure, 10))
+
+
+def views_of(run, steps):
+    """Both views in a figure of their own, with a title."""
+    top = shown_top(run, steps)
+    width, height = map_size(run, top, HEIGHT)
+    across = max(LEFT + 2 * width + GAP + RIGHT, 4.2)
+    start = (across - 2 * width - GAP) / 2 if across == 4.2 else LEFT
+    figure = plt.figure(figsize=(across, HEAD + height + BARS))
+    axes, keys = ([axes_at(figure, start + n * (width + GAP), base, width, tall) for n in (0, 1)]
+                  for base, tall in ((BARS, height), (BARS - 0.6, 0.1)))
+    views = Views(run, steps, axes, keys, top)
+    views.title = figure.suptitle("", y=1 - 0.16 / figure.get_figheight(), fontsize=10)
+    return views
 
 
 def draw(run, step):
-    views = Views(run, [step])
+    views = views_of(run, [step])
     views.show(step)
     return views.figure

@@ -5,16 +5,18 @@ import os
 import shlex
 from pathlib import Path
 
+from polybed.drawing.units import duration
 from polybed.files import contents_of, read_json
 from polybed.folder import read_record
 from polybed.program import name_of
+from polybed.record import drift_lines
 from polybed.study import compare_report as report
 from polybed.study.cases import Case, differences, roles_in_both_models
 from polybed.ending import DONE, FILE, WRONG_CASE, StudyError, answer, guarded
 from polybed.study.measured import measured
 from polybed.study.output_folder import taken
-from polybed.study.record import draw, write_record
-from polybed.runner import flags, has_checkpoint, ranks, run, words_of
+from polybed.study.record import draw, remark, write_record
+from polybed.runner import answer_of, flags, has_checkpoint, ranks, run, words_of
 from polybed.study.scores import MODELS, add_inversion, compare
 
 
@@ -54,6 +56,14 @@ def made(options, case, model):
     run(model, case.path, *words_of(case.overrides), "-o", output, *resume, *flags(vars(options), "force", "permissive", "quiet"),
         *([] if options.picture else ["--no-picture"]))
     return output
+
+
+def forecast(options, case):
+    """Says how long the runs that are not given will take."""
+    for model in MODELS:
+        if not getattr(options, model) and not options.quiet:
+            found = answer_of("estimate", case.path, *words_of(case.overrides), "--model", model)["cpu_s"]
+            remark(f"{model}: about {duration(found['expected'])} of computing, {duration(found['least'])} to {duration(found['most'])}")
 
 
 def read_scan(options, case):
@@ -96,7 +106,7 @@ def compare_runs(options, case, directories):
     path = Path(options.output) / "comparison.json"
     text = write_record(path, plain)
     made_here = not (options.tfm or options.dem)
-    drifts = made_here and any(run.drifts for run in runs)
+    drifts = made_here and any(drift_lines(run.record) for run in runs)
     more = f"\nto go on: {command_to_go_on(options, records['tfm']['time_s'])}" if drifts else ""
     answer(text if options.json else f"{report.table(plain)}\n{path}{more}")
     if options.picture:
@@ -108,6 +118,7 @@ def make(options):
     options.output = options.output or os.path.join("runs", f"{name_of(options.case)}-compare")
     refuse_before_running(options, case)
     with taken(Path(options.output)):
+        forecast(options, case)
         compare_runs(options, case, {model: getattr(options, model) or made(options, case, model) for model in MODELS})
     return DONE
 

@@ -29,11 +29,11 @@ def plain(found, case, directory, runs):
             "overrides": case.overrides, **parts, "models": models, **of_scan, "warnings": found["warnings"]}
 
 
-def with_error(value, error):
+def with_error(value, error=None):
     """A number with its half-width, to the digits that the half-width leaves."""
     if value is None:
-        return "-"
-    return f"{value:.4g}" + ("" if error is None else f" +-{error:.1g}")
+        return "\u2013"
+    return f"{value:.4g}" + ("" if error is None else f" \u00b1 {error:.1g}")
 
 
 def top_text(top):
@@ -72,7 +72,7 @@ def measure_line(name, measure):
 
 def table(record):
     window, order = record["window"], record["scores"]["order"]
-    lines = [f"means from {window['begin_s']:.4g} to {window['end_s']:.4g} s, +- 95 %",
+    lines = [f"means from {window['begin_s']:.4g} to {window['end_s']:.4g} s, \u00b1 95 %",
              f"{'':30} {'two-fluid (tfm)':>20} {'particles (dem)':>20} {'difference':>20}",
              *(measure_line(name, measure) for name, measure in record["measures"].items())]
     lines += [f"{'on top':30} {top_text(order['tfm']):>20} {top_text(order['dem']):>20}", "",

@@ -1,36 +1,15 @@
 """What runs have measured: columns of their histories, and what `polybed measure` says: means over a window of time with the half-widths
 of their 95 % intervals."""
 
-from dataclasses import dataclass, field
-from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
 
-from polybed.files import DamagedError, FormatError
+from polybed.files import FormatError
+from polybed.read import Snapshot
 from polybed.runner import answer_of, asked
-from polybed.read import read
-from polybed.record import drift_lines
 
 ROUNDING = 1e-9  # of times at the ends of the window
-
-
-class Columns(dict):
-    """Arrays by name of a file of a run; what is missing is said of that file."""
-
-    def __init__(self, path, columns):
-        super().__init__(columns)
-        self.path = path
-
-    def __missing__(self, name):
-        raise DamagedError(self.path, f"it has no {name}")
-
-
-@dataclass
-class Measured:
-    directory: Path
-    history: Columns
-    drifts: list = field(default_factory=list)  # what still drifts at its end, a line each
 
 
 class TimeMean(NamedTuple):
@@ -46,17 +25,13 @@ class Window(NamedTuple):
     shortened: bool = False  # by the marginal standard error rule
 
 
-def history_of(run):
-    return Columns(run.directory / "history.csv", run.history)
-
-
 def measured(directory):
-    """Opens what a run directory holds. Raises FileNotFoundError or FormatError."""
-    run = read(directory)
+    """Opens a run that has stored what studies measure. Raises FileNotFoundError or FormatError."""
+    run = Snapshot(directory)
     for name in ("history.csv", "profiles.h5"):
         if not (run.directory / name).exists():
             raise FileNotFoundError(f"{run.directory / name} is missing: make it again with polybed, or restore it from a copy")
-    return Measured(run.directory, history_of(run), drift_lines(run.record))
+    return run
 
 
 def species_of(history):

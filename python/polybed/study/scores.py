@@ -6,6 +6,7 @@ import numpy as np
 
 from polybed.quantities import measure_words
 from polybed.read import kinds_among
+from polybed.record import drift_lines
 from polybed.study.measured import centre_column, means_of
 
 ENOUGH = 30  # autocorrelation times in a window
@@ -88,7 +89,7 @@ def scores_of(means, measures, distances, species, kinds):
 
 
 def compare(tfm, dem):
-    """What comparison.json says of two runs of one case, both Measured, and the number of their profiles in the window. Raises ProgramError
+    """What comparison.json says of two runs of one case, opened by `measured`, and the number of their profiles in the window. Raises ProgramError
     if their species or slabs are not the same."""
     window, runs, distances = means_of(tfm.directory, beside=dem.directory)
     by_model, species = dict(zip(MODELS, runs)), list(runs[0].fraction)
@@ -103,7 +104,7 @@ def compare(tfm, dem):
                  for model, run in by_model.items()}
     profiles = {model: run.profiles for model, run in by_model.items()}
     warnings = [f"{model}: {line}" for model, of in (("tfm", tfm), ("dem", dem))
-                for line in (*warnings_of(by_model[model], means[model]), *of.drifts)]
+                for line in (*warnings_of(by_model[model], means[model]), *drift_lines(of.record))]
     if not all(profiles.values()):
         warnings.append("no stored profile of both runs in the window: a smaller output.every stores more")
     return {"window": {"begin_s": window.begin, "end_s": window.end, "shortened": window.shortened, "confidence": CONFIDENCE},

@@ -13,7 +13,7 @@ from polybed.files import FormatError, contents_of, finite
 from polybed.read import read
 from polybed.record import case_of, drift_lines
 from polybed.runner import answer_of, words_of
-from polybed.study.measured import history_of, means_of, statistics_of, within
+from polybed.study.measured import means_of, statistics_of, within
 from polybed.validation.entries import chosen_rows, script_of
 
 PACKED = (0.1, 0.6)  # pressure drop over weight between which the bed is packed
@@ -109,7 +109,7 @@ def meets_weight(record, history):
 def run_number(entry, compare, directory):
     """What a run gives. Raises Undecided, FormatError or FileNotFoundError."""
     how, run = compare["how"], read(directory)
-    history = history_of(run)
+    history = run.history
     if how == "meets_weight":
         return meets_weight(run.record, history)
     if how == "first_time" and "series" in compare:

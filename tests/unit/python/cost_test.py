@@ -207,12 +207,6 @@ class Axes(unittest.TestCase):
 
 
 class Quantities(unittest.TestCase):
-    def test_frequency_of_a_sine(self):
-        time = np.arange(64) * 0.05
-        self.assertAlmostEqual(quantities.frequency_of(np.sin(2 * np.pi * time / 0.4), 0.05), 2.5)
-        self.assertIsNone(quantities.frequency_of(np.zeros(64), 0.05))
-        self.assertIsNone(quantities.frequency_of(np.arange(7.0), 0.05))
-
     def run_of(self, cells, heights):
         """A bed of one species, uniform up to a height that differs from profile to profile."""
         rows, time = 40, np.linspace(0, 10, 401)

@@ -264,9 +264,9 @@ class Particles(SampleRun):
     kind = "particles"
 
     def test_circles_have_the_size_of_the_particles(self):
-        views = particles.Views(self.sample, [0])
+        views = particles.views_of(self.sample, [0])
         views.show(0)
-        for axes, drawn in zip(views.views, views.drawn):
+        for axes, drawn in zip(views.axes, views.drawn):
             self.assertEqual(axes.get_aspect(), 1)
             views.figure.canvas.draw()
             transforms = drawn.get_transforms()

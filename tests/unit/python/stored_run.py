@@ -1,9 +1,10 @@
 """Runs of known columns and profiles, stored as the program stores them, for it to measure."""
 from pathlib import Path
+from types import SimpleNamespace
 
 import h5py
 import numpy as np
-from polybed.study.measured import Columns, Measured
+from polybed.quantities import Named
 
 
 class Written:
@@ -22,4 +23,4 @@ class Written:
             file.attrs.update(filetype="polybed profiles", version=1, git_commit="0")
             for name, values in (self.profiles or {"time_s": np.empty(0), "y_m": [0.5], "phi_a": np.empty((0, 1))}).items():
                 file[name] = values
-        return Measured(directory, Columns("history.csv", self.history), self.drifts)
+        return SimpleNamespace(directory=directory, history=Named("history.csv", self.history), record={"drift": {"lines": self.drifts}})
