@@ -18,22 +18,7 @@ import numpy as np
 
 from polybed.errors import PlainError, UnknownNameError
 
-VERSIONS = {
-    "polybed fields": 1,
-    "polybed fields step": 1,
-    "polybed particles": 1,
-    "polybed particles step": 1,
-    "polybed profiles": 1,
-    "polybed solids table": 1,
-    "polybed run": 1,
-    "polybed comparison": 1,
-    "polybed inversion": 1,
-    "polybed cost": 1,
-    "polybed stability": 1,
-    "polybed validation": 1,
-    "polybed closure uncertainty": 1,
-    "polybed drag fit": 1,
-}
+VERSION = 1  # of every kind of file
 
 
 class FormatError(PlainError):
@@ -77,10 +62,8 @@ def contents_of(path):
 def check_kind(attributes, filetype, path):
     """Raises FormatError unless a file is what it should be."""
     found = (attributes.get("filetype"), attributes.get("version"))
-    if found[0] != filetype or found[1] != VERSIONS[filetype]:
-        raise FormatError(
-            f"{path} is '{found[0]}' version {found[1]}; this package reads '{filetype}' version {VERSIONS[filetype]}"
-        )
+    if found != (filetype, VERSION):
+        raise FormatError(f"{path} is '{found[0]}' version {found[1]}; this package reads '{filetype}' version {VERSION}")
 
 
 def opened(path):
@@ -199,3 +182,29 @@ def rising(values, name):
     if values.ndim != 1 or values.dtype.kind not in "iuf" or not np.isfinite(values).all() or not (np.diff(values) > 0).all():
         raise ValueError(f"{name} does not rise")
     return values
+
+
+@contextlib.contextmanager
+def in_place(path, ending=".temporary"):
+    """The path to write under a temporary name in the same folder, `path.name + ending`; if all went well it is flushed to the disk and
+    renamed.
+
+    The temporary file is new: a link that has its name, in a folder that others may write, is removed and not followed.
+    """
+    temporary = path.with_name(path.name + ending)
+    temporary.unlink(missing_ok=True)
+    os.close(os.open(temporary, os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_NOFOLLOW, 0o666))
+    try:
+        yield temporary
+        with open(temporary, "rb") as written:
+            os.fsync(written)
+        os.replace(temporary, path)
+    finally:
+        temporary.unlink(missing_ok=True)
+
+
+def put_text(path, text, errors="strict"):
+    """Puts a text file in place whole and returns its path."""
+    with in_place(path) as temporary:
+        temporary.write_text(text, encoding="utf-8", errors=errors)
+    return path

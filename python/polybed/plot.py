@@ -10,7 +10,6 @@ import sys
 import warnings
 from pathlib import Path
 
-from polybed.in_place import in_place, put_text
 from polybed.packages import needed
 from polybed.progress import Bar
 
@@ -20,7 +19,7 @@ with needed(False):
     from polybed.drawing import animation, fields, history, overview, particles, profiles
     from polybed.drawing.style import STYLE
     from polybed.ending import WRONG_CASE, StudyError, made
-    from polybed.files import FAULTS, contents_of, read_json
+    from polybed.files import FAULTS, contents_of, in_place, put_text, read_json
     from polybed.particles import step_shown
     from polybed.read import Snapshot, nearest, stored_times
 
@@ -107,7 +106,7 @@ def pictures(directory, what=None, time=None, out=None, ending="png", rate=None,
     run = Snapshot(directory)
     what = kinds_of(run) if what is None else what
     if unknown := set(what) - set(WHAT):
-        raise StudyError(WRONG_CASE, f"there is no picture {min(unknown)!r}; there are {', '.join(WHAT)}")
+        raise StudyError(WRONG_CASE, f"there is no picture {min(unknown)!r}; there are {', '.join(WHAT)}, all")
     step_of(run, time)
     folder = Path(out) if out else run.directory / "pictures"
     if folder.is_symlink() and not out:
@@ -139,12 +138,7 @@ def parsed(arguments):
     parser.add_argument("--quiet", action="store_true", help="no progress")
     parser.add_argument("--json", action="store_true", help="one JSON object: the files written")
     parser.add_argument("--picture", action="store_true", help="RUN/picture.png and RUN/report.html alone, as at the end of a run")
-    options = parser.parse_args(arguments)
-    options.what = None if options.what == "all" else tuple(options.what.split(","))
-    unknown = [what for what in options.what or () if what not in WHAT]
-    if unknown:
-        parser.error(f"--what {unknown[0]}: allowed are {', '.join(WHAT)}, all")
-    return options
+    return parser.parse_args(arguments)
 
 
 def main(arguments=None):
@@ -163,6 +157,7 @@ def drawn(options):
         if study and not Path(options.run, "run.json").exists():
             return study_drawn(study, options.out)
         progress = Bar("animation").show if sys.stderr.isatty() and not options.quiet else None
-        drawn = pictures(options.run, options.what, options.time, options.out, options.format, options.rate, progress)
+        what = None if options.what == "all" else options.what.split(",")
+        drawn = pictures(options.run, what, options.time, options.out, options.format, options.rate, progress)
         return [json.dumps({"pictures": [str(path) for path in drawn]})] if options.json else drawn
     return made(paths)

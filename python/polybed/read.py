@@ -40,9 +40,6 @@ class Series:
             raise IndexError(f"{self._name} has {count} steps, none numbered {step}")
         return self._run.fields_at(step % count, [self._name])[self._name]
 
-    def __iter__(self):
-        return (self[n] for n in range(len(self)))
-
 
 def kinds_among(names: list[str]) -> dict[str, list[str]]:
     """Species, each with its size classes, found by their names: name.1, name.2, ..."""
@@ -87,7 +84,7 @@ class Run:
     def _repr_html_(self) -> str:
         """The card, for notebooks: what the page of the run begins with."""
         from polybed.page import markup
-        from polybed.report.card import card_of
+        from polybed.report.sections import card_of
         return markup("<p>{}</p>{}", repr(self), card_of(self))
 
     def _open_step(self, step):

@@ -6,6 +6,7 @@ import contextlib
 import ctypes
 import json
 import os
+import shutil
 import signal
 import subprocess
 import sys
@@ -17,13 +18,11 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from polybed import search
 from polybed.ending import MPI, NUMBERS, STOPPED
 from polybed.errors import NoProgramError, ProgramError, StudyError
 from polybed.files import read_text
 
 OWN = Path(__file__).resolve()
-GRACE = 5  # s, in which a child that is asked to end may do so
 ENDS_WITH_PARENT = 1  # PR_SET_PDEATHSIG
 LIBC = ctypes.CDLL(None)
 RANKS = ("POLYBED_RANKS", "OMPI_COMM_WORLD_SIZE", "PMI_SIZE")  # of -n before the command, or of a launcher
@@ -38,6 +37,16 @@ running: weakref.WeakSet[Child] = weakref.WeakSet()
 starting, stopped = threading.Lock(), threading.Event()  # by the user: nothing more is started
 
 
+def search_path() -> str:
+    """The environment's PATH without its relative and empty entries: the working directory can contain a stranger's files."""
+    return os.pathsep.join(entry for entry in os.environ.get("PATH", os.defpath).split(os.pathsep) if os.path.isabs(entry))
+
+
+def found_program(name: str) -> str | None:
+    """Absolute path of another program, or None."""
+    return shutil.which(name, path=search_path())
+
+
 def sources() -> Path | None:
     """The folder of the sources that this package lies in, or that pip has installed it from."""
     note = OWN.with_name("sources.txt")  # of setup.py
@@ -49,7 +58,7 @@ def program() -> str:
     """Path of the program: $POLYBED, or that installed beside this package, or that built in its sources, or the one on the path."""
     built = sources()
     installed = [] if built == OWN.parents[2] else [OWN.parents[4] / "bin/polybed"]
-    tried = [os.environ.get("POLYBED"), *installed, built and built / "build/polybed", search.find("polybed")]
+    tried = [os.environ.get("POLYBED"), *installed, built and built / "build/polybed", found_program("polybed")]
     for path in tried:
         if path and os.access(path, os.X_OK) and not Path(path).is_dir():
             return str(Path(path).resolve())
@@ -74,7 +83,7 @@ def left_by_launcher(name: str) -> bool:
 def environment() -> dict[str, str]:
     """That of a child: without what a launcher says of this process, which is none of the child's ranks."""
     kept = {name: value for name, value in os.environ.items() if not left_by_launcher(name)}
-    return kept | {"PATH": search.path()}
+    return kept | {"PATH": search_path()}
 
 
 def tie(count: int) -> Callable[[], None]:
@@ -206,37 +215,24 @@ class Exit(NamedTuple):
     wall: float
 
 
-def end(child: Child, ranks: int, late: threading.Event | None = None) -> None:
-    """Ends a child, which is late and of which nothing is read. One on ranks is asked to, since they end with the process that started
-    them, and its group is ended if it does not within some seconds."""
-    if late:
-        late.set()
-    if ranks == 1:
-        child.kill()
-        return
-    child.terminate()
-    try:
-        child.wait(GRACE)
-    except subprocess.TimeoutExpired:
-        with contextlib.suppress(ProcessLookupError):
-            os.killpg(child.pid, signal.SIGKILL)
-
-
-def run_within(seconds: float, words: Iterable[object], ranks: int, output: Path) -> Exit:
+def run_within(seconds: float, words: Iterable[object], output: Path) -> Exit:
     """Runs the program, and ends it when its time is over. output: a new file of what it prints; a link that has its name is removed and
     not followed"""
-    late = threading.Event()
-    begin = time.monotonic()
+    late, begin = threading.Event(), time.monotonic()
     output.unlink(missing_ok=True)
     with open(output, "xb") as file:
-        child = start(words, ranks, True, stdout=file, stderr=subprocess.STDOUT)
+        child = start(words, 1, True, stdout=file, stderr=subprocess.STDOUT)
     left = min(max(0.0, begin + seconds - time.monotonic()), threading.TIMEOUT_MAX)
-    timer = threading.Timer(left, end, (child, ranks, late))
+
+    def over() -> None:
+        late.set()
+        child.kill()
+    timer = threading.Timer(left, over)
     timer.start()
     try:
         code = child.wait()
     except BaseException:
-        end(child, ranks)
+        child.kill()
         raise
     finally:
         timer.cancel()

@@ -16,7 +16,7 @@ PRINTED = re.compile(r"\bfmt::print\(|\bstd::(cout|cerr|printf|fprintf|puts|fput
 OPENED = {"cpp": re.compile(r"\bstd::ifstream\b|\bfopen\(|(?<!\w)::open\(|\bH5[FD]open2?\("),
           "py": re.compile(r"(?<![\w.])open\((?!.*\"[wx]b?\")|\bos\.open\(|\.read_(text|bytes)\(|\bh5py\.File\((?!.*\"w\")")}
 OPENERS = {"core/output/files.cpp", "core/output/file.cpp", "python/polybed/files.py",
-           "core/output/blocks.cpp", "python/polybed/in_place.py",  # what they have written
+           "core/output/blocks.cpp",  # what they have written
            "core/output/directory.cpp",  # the mark
            "core/memory.cpp", "multiscale/run_record.cpp", "python/polybed/cost/report.py",  # of the system
            "app/process.cpp", "python/polybed/ending.py", "python/polybed/isolated.py"}

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Counters of one and two ranks, and sweeps over ranks, over the window and against a run that is given.
+"""Counters of one and two ranks, and a sweep against a run that is given.
 Usage: cost_ranks_test.py PROGRAM"""
 import os
 import pathlib
@@ -48,22 +48,6 @@ class Sweeps(OnRanks):
     def sweep(self, name, *words):
         case = self.write("case.toml", BED)
         return strict_json(self.started(program.PROGRAM, "cost", case, *words, *QUIET, "-o", self.folder / name))
-
-    def test_over_ranks_and_the_window(self):
-        """Ranks have the same numbers and a time of their own; longer windows take more steps."""
-        sweep = self.sweep("ranks", "--axes", "ranks,window")
-        self.assertEqual(sweep["outcome"], "done")
-        level = {(run["settings"]["ranks"], run["settings"]["window"]): run for run in sweep["runs"]
-                 if run["kind"] in ("candidate", "machine") and run["cpu_s"]}
-        self.assertLessEqual({("1", "x1"), ("2", "x1"), ("1", "x3"), ("1", "x10")}, set(level))
-        one, two = level["1", "x1"], level["2", "x1"]
-        self.assertEqual((one["ranks"], two["ranks"]), (1, 2))
-        self.assertGreater(two["wall_s"][0], 0)
-        heights = [run["qoi"]["bed_height"]["value"] for run in (one, two)]
-        self.assertAlmostEqual(heights[0] / heights[1], 1, delta=1e-3)  # rtol: sums over ranks round otherwise
-        steps = [level["1", window]["work"]["steps"] for window in ("x1", "x3", "x10")]
-        self.assertLess(steps[0], steps[1])
-        self.assertLess(steps[1], steps[2])
 
     def test_against_a_run_that_is_given(self):
         """The reference is a row of the sweep itself, run by hand: its error is none, that of the others is."""

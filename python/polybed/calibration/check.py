@@ -2,7 +2,7 @@
 
 import math
 
-from polybed.calibration.plan import Point
+from polybed.calibration.boxes import Point
 from polybed.tables import right_table
 
 SEED = 1001  # one that no plan has

@@ -7,18 +7,16 @@ import time
 from pathlib import Path
 
 from polybed.calibration import bed, fit
-from polybed.calibration.boxes import Boxes, asked_of
+from polybed.calibration.boxes import Boxes, Plan, asked_of
 from polybed.calibration.check import deviation, deviation_lines, points_between
-from polybed.calibration.plan import Plan
 from polybed.calibration.text import box_lines, table_toml
 from polybed.drawing.units import duration
 from polybed.ending import DONE, WRONG_CASE, StudyError, answer, guarded
-from polybed.in_place import in_place, put_text
+from polybed.files import in_place, put_text
 from polybed.program import name_of
 from polybed.runner import Door, ranks
 from polybed.solids_table import read_table
-from polybed.study import output_folder
-from polybed.study.record import remark
+from polybed.study.output import remark, subfolder, taken
 
 
 # Axes of a table.
@@ -176,8 +174,8 @@ def calibrate(options, door):
         raise StudyError(WRONG_CASE, "-j starts processes of its own: under mpirun the ranks run the boxes, leave it out")
     if options.plan:
         return show_plan(options, plan, Boxes(door, options, plan.boxes()))
-    with output_folder.taken(options.output):
-        output_folder.subfolder(options.output, "boxes")
+    with taken(options.output):
+        subfolder(options.output, "boxes")
         return check_table(options, door, plan) if options.check else make_table(options, door, plan)
 
 

@@ -81,5 +81,5 @@ def attribute(sweeper):
         if row.kind == INPUT:
             sweep.inputs.append(Share(row.note, distance))
     sweep.attribution = [of_line(sweeper, "time integration", ("rtol", "steps")), of_line(sweeper, "space", ("grid",)), solver,
-                         of_statistics(sweeper), of_models(sweeper, "closure spread", ("drag", "effects", "stiffness", "kernel")),
+                         of_statistics(sweeper), of_models(sweeper, "closure spread", ("drag", "effects", "stiffness")),
                          of_models(sweeper, "level", ("level",))]

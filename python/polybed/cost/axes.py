@@ -6,7 +6,7 @@ from functools import partial
 from polybed.cost.scene import LEAST_MODULUS
 from polybed.ending import WRONG_CASE, StudyError
 
-NUMERICS, STATISTICS, MODEL, MACHINE = "numerics", "statistics", "model", "machine"
+NUMERICS, MODEL = "numerics", "model"
 DRAG_LAWS = ("cello", "vbk_theory", "gidaspow", "di_felice")
 
 
@@ -16,7 +16,6 @@ class Level:
     value: float = 0  # in the direction of the axis; 0: it has none
     overrides: list = field(default_factory=list)  # "key=value" each
     model: str = ""  # tfm | dem | force_balance; empty: that of the sweep
-    ranks: int = 1
 
 
 @dataclass
@@ -73,13 +72,6 @@ def scheme_axis(scene, _):
     return Axis("scheme", NUMERICS, levels + ([Level("upwind", 0, ["tfm.flux=upwind"])] if limited else []))
 
 
-def window_axis(scene, _):
-    """The averaging time is the last quarter of the run: n of them end at until (3 + n)/4."""
-    until = scene.of("run.until")
-    levels = [Level(f"x{n}", n, [setting("run.until", until * (3 + n) / 4)]) for n in (1, 3, 10)]
-    return Axis("window", STATISTICS, [replace(levels[0], overrides=[]), *levels[1:]])
-
-
 def stiffness_axis(scene, _):
     """Softer contacts last four times as long with a modulus divided by 4^(5/2), Hertz."""
     modulus = scene.of("dem.youngs_modulus", LEAST_MODULUS)
@@ -88,12 +80,6 @@ def stiffness_axis(scene, _):
     own += [(f"contact_pair.{n}", pair) for n, pair in enumerate(scene.keys.get("contact_pair", []))]
     soft.overrides += [setting(f"{name}.youngs_modulus", table["youngs_modulus"] / 32) for name, table in own if "youngs_modulus" in table]
     return Axis("stiffness", MODEL, [soft, replace(given, overrides=[])], 1)
-
-
-def kernel_axis(scene, _):
-    greatest = max(species["diameter"] for species in scene.keys["species"])
-    widths = [Level(f"{d} d", d, ["dem.kernel=diffusion", setting("dem.kernel_width", d * greatest)]) for d in (3, 4, 6)]
-    return Axis("kernel", MODEL, [Level("given"), *widths])
 
 
 def laws_axis(name, role, given, others):
@@ -129,36 +115,27 @@ def level_axis(scene, model):
     return Axis("level", MODEL, levels)
 
 
-def ranks_axis(*_):
-    return Axis("ranks", MACHINE, [Level("1", 1), Level("2", 2, ranks=2)])
-
-
 rtol_axis = partial(numbers, name="rtol", key="tfm.rtol", values=[1e-2, 1e-3, 1e-4, 1e-5], falling=True, beyond=[1e-6, 1e-7])
 steps_axis = partial(numbers, name="steps", key="dem.steps_per_contact", values=[10, 20, 50, 100], falling=False, beyond=[200, 400])
 coupling_axis = partial(numbers, name="coupling", key="dem.fluid_every", values=[50, 16, 5], falling=True, beyond=[2, 1], default=16)
 
-# name: (models that it acts in, whether a sweep has it by default, what makes it), in the order of a sweep.
-MAKERS = {"rtol": (("tfm",), True, rtol_axis), "grid": (("tfm",), True, grid_axis), "scheme": (("tfm",), True, scheme_axis),
-          "steps": (("dem",), True, steps_axis), "coupling": (("dem",), True, coupling_axis),
-          "window": (("tfm", "dem"), False, window_axis), "stiffness": (("dem",), True, stiffness_axis),
-          "kernel": (("dem",), False, kernel_axis), "drag": (("tfm", "dem"), True, drag_axis), "effects": (("tfm",), True, stress_axis),
-          "level": (("tfm", "dem"), True, level_axis), "ranks": (("tfm", "dem"), False, ranks_axis)}
-OF_FLUID = ("coupling", "kernel")
+# name: (models that it acts in, what makes it), in the order of a sweep.
+MAKERS = {"rtol": (("tfm",), rtol_axis), "grid": (("tfm",), grid_axis), "scheme": (("tfm",), scheme_axis), "steps": (("dem",), steps_axis),
+          "coupling": (("dem",), coupling_axis), "stiffness": (("dem",), stiffness_axis), "drag": (("tfm", "dem"), drag_axis),
+          "effects": (("tfm",), stress_axis), "level": (("tfm", "dem"), level_axis)}
 
 
 def acting_axes(scene, model):
     """Names of the axes that act in this case by a model."""
-    return [name for name, (models, _, _) in MAKERS.items() if model in models and (scene.has_fluid or name not in OF_FLUID)]
+    return [name for name, (models, _) in MAKERS.items() if model in models and (scene.has_fluid or name != "coupling")]
 
 
 def axes_of(scene, model, names):
-    """The axes of these names in the order of a sweep; without names those that a sweep has by default. Raises StudyError for a name that
-    is unknown, or that does not act in this case."""
+    """The axes of these names in the order of a sweep, without names all. Raises StudyError for a name that is unknown, or that does not act
+    in this case."""
     acting = acting_axes(scene, model)
     for name in names:
-        if name not in MAKERS:
-            raise StudyError(WRONG_CASE, f"--axes {name}: there are {', '.join(MAKERS)}")
         if name not in acting:
-            raise StudyError(WRONG_CASE, f"--axes {name}: does not act in this case by {model}")
-    return [make(scene, model) for name, (_, by_default, make) in MAKERS.items()
-            if (name in names if names else by_default and name in acting)]
+            raise StudyError(WRONG_CASE, f"--axes {name}: " + (f"does not act in this case by {model}" if name in MAKERS else
+                                                               f"there are {', '.join(MAKERS)}"))
+    return [MAKERS[name][1](scene, model) for name in acting if name in (names or acting)]

@@ -7,8 +7,7 @@ from pathlib import Path
 from polybed.cost.quantities import measure_on, quantities_of_run
 from polybed.cost.runner import Runner, RunOrder
 from polybed.cost.scene import Scene
-from polybed.files import contents_of, read_json, read_text
-from polybed.in_place import put_text
+from polybed.files import contents_of, put_text, read_json, read_text
 from polybed.ending import NUMBERS, WRONG_CASE, StudyError, answer
 from polybed.study.cases import Case
 
@@ -38,7 +37,7 @@ def scene_of(sweep):
 def run_again(sweep, advised, folder):
     """The outcome of the recommended run, done now, and what it measures."""
     with contents_of(folder / "cost.json"):
-        order = RunOrder(advised["model"], advised["ranks"], tuple(advised["overrides"]))
+        order = RunOrder(advised["model"], tuple(advised["overrides"]))
         seconds = 60 + 20 * sweep["runs"][advised["run"]]["wall_s"][0]
         on = measure_on(tomllib.loads(sweep["case"]), sweep["window_s"])
         overrides = sweep["overrides"]

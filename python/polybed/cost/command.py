@@ -5,7 +5,7 @@ import re
 from pathlib import Path
 
 from polybed.cost import attribution, front
-from polybed.cost.axes import MACHINE, MAKERS, MODEL, NUMERICS, STATISTICS
+from polybed.cost.axes import MAKERS, MODEL, NUMERICS
 from polybed.cost.check import check_recommendation
 from polybed.cost.judge import measure_distances, measure_errors, rank, settings_text
 from polybed.cost.reference import find_reference
@@ -16,8 +16,7 @@ from polybed.cost.sweep import CANDIDATE, SweepOptions
 from polybed.cost.sweeper import Sweeper, common_overrides
 from polybed.program import name_of
 from polybed.runner import call, words_of
-from polybed.study import output_folder
-from polybed.study.record import draw
+from polybed.study.output import draw, subfolder, taken
 from polybed.ending import DONE, FILE, NUMBERS, WRONG_CASE, StudyError, answer, guarded
 
 SECONDS = {"us": 1e-6, "ms": 1e-3, "s": 1.0, "min": 60.0, "h": 3600.0}
@@ -57,8 +56,7 @@ def parser():
     options.add_argument("--qoi", type=listed, default=[],
                          help="measured quantities, separated by commas; the first decides (default: bed_height)")
     options.add_argument("--axes", type=listed, default=[],
-                         help=f"what is varied, separated by commas: {', '.join(MAKERS)} (default: "
-                              f"{', '.join(name for name, (_, usual, _) in MAKERS.items() if usual)}, where they act)")
+                         help=f"what is varied, separated by commas: {', '.join(MAKERS)} (default: all that act)")
     options.add_argument("--target", default="1%", help="largest error allowed (default: 1%%)")
     options.add_argument("--budget", default="20min", help="wall time of the whole study (default: 20min)")
     options.add_argument("--clock", choices=("work", "wall"), default="work",
@@ -88,7 +86,6 @@ def run_sweep(scene, options, runner):
     if not sweeper.find_regime():
         return sweep
     sweeper.run_lines(NUMERICS)
-    sweeper.run_lines(STATISTICS)
     find_reference(sweeper)
     if not sweep.reference.kind and sweep.outcome == "done":
         sweep.refuse("no trustworthy reference")
@@ -100,7 +97,6 @@ def run_sweep(scene, options, runner):
     attribution.run_solver(sweeper)
     sweeper.run_lines(MODEL)
     attribution.run_inputs(sweeper)
-    sweeper.run_lines(MACHINE)
     for row in sweep.rows:
         measure_errors(sweep, row)
     measure_distances(sweep)
@@ -125,8 +121,8 @@ def sweep(given):
     options = SweepOptions(model_of(scene, given.model), given.qoi, given.axes, target_of(given.target), budget_of(given.budget), given.clock,
                            given.reference, given.quiet or given.json)
     overrides = [*scene.overrides, *common_overrides(scene)]
-    with output_folder.taken(folder):
-        found = run_sweep(scene, options, Runner(scene, overrides, output_folder.subfolder(folder, "runs"), given.resume))
+    with taken(folder):
+        found = run_sweep(scene, options, Runner(scene, overrides, subfolder(folder, "runs"), given.resume))
         record = sweep_json(found, scene, overrides)
         text = write_sweep(record, folder)
         answer(text if given.json else f"{sweep_markdown(record)}\n{folder / 'cost.json'}")

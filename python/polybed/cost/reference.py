@@ -3,7 +3,7 @@
 from polybed.cost.axes import setting
 from polybed.cost.judge import FLOOR_FACTOR, carries, measure_errors, scale_of, settings_text
 from polybed.cost.quantities import quantities_of_run
-from polybed.cost.refinement import refine
+from polybed.cost.fit import refine
 from polybed.cost.runner import RunOrder
 from polybed.cost.sweep import CANDIDATE, REFERENCE, Reference, Row
 from polybed.study.measured import measured

@@ -7,10 +7,10 @@ from polybed.cost.judge import level_of, scale_of
 from polybed.cost.words import CLOCKS, REFERENCE, STATUS, in_words, part, percent
 from polybed.cost.work import VERSION, weighed
 from polybed.drawing.units import text
-from polybed.in_place import put_text
+from polybed.files import put_text
 from polybed.program import name_of
 from polybed.runner import commit_and_build
-from polybed.study.record import json_text
+from polybed.study.output import json_text
 from polybed.tables import markdown_table
 
 ALWAYS = ("rtol", "grid", "scheme", "steps", "coupling")  # axes whose level each row tells, the others where it is not that of the first row
@@ -33,7 +33,7 @@ def finite(value):
 
 def settings_of(sweep, row):
     return {"settings": {axis.name: axis.levels[level_of(row, axis)].label for axis in sweep.axes} if row.settings else {},
-            "note": row.note, "model": row.order.model, "ranks": row.order.ranks, "overrides": row.order.overrides}
+            "note": row.note, "model": row.order.model, "overrides": row.order.overrides}
 
 
 def row_json(sweep, row):

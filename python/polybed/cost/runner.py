@@ -9,8 +9,7 @@ from dataclasses import dataclass, field
 from typing import NamedTuple
 
 from polybed.cost.work import counters_of, weighed
-from polybed.files import contents_of, read_json, read_text
-from polybed.in_place import put_text
+from polybed.files import contents_of, put_text, read_json, read_text
 from polybed.read import Run
 from polybed.study.cases import hash_of
 from polybed.runner import asked, run_within, words_of
@@ -26,7 +25,6 @@ STEP = re.compile(r"\d{6,}\.h5(\.temporary)?")
 class RunOrder(NamedTuple):
     """What is run: the case with settings of its own."""
     model: str  # tfm | dem
-    ranks: int = 1
     overrides: tuple = ()
 
 
@@ -86,7 +84,7 @@ class Runner:
 
     def run(self, order, seconds):
         """Does a run, unless it was done. seconds: wall time that it may take"""
-        told = (self.scene.text, " ".join(self.overrides), order.model, str(order.ranks), " ".join(order.overrides))
+        told = (self.scene.text, " ".join(self.overrides), order.model, "1", " ".join(order.overrides))
         folder = self.folder / hash_of(" ".join(told).encode())
         if folder not in self.seen and not (self.resume and self.ended(folder)):
             if not seconds > 0:
@@ -109,7 +107,7 @@ class Runner:
         (folder / "end.json").unlink(missing_ok=True)
         words = [order.model, str(self.scene.path), "--quiet", "--no-picture", "--force", "-o", str(folder)]
         words += words_of([*self.overrides, *order.overrides])
-        end = run_within(seconds, words, order.ranks, folder / "output.txt")
+        end = run_within(seconds, words, folder / "output.txt")
         remove_not_read(folder)
         put_text(folder / "end.json", json.dumps({"code": end.code, "timed_out": end.timed_out, "wall_s": end.wall}) + "\n")
 

@@ -9,7 +9,7 @@ from polybed.cost.quantities import MeasureOn, RunQuantities
 from polybed.cost.runner import RunOrder, RunOutcome
 
 # What a row stands for.
-CANDIDATE, MODEL, MACHINE, REFERENCE, TWIN, SOLVER, INPUT = "candidate", "model", "machine", "reference", "twin", "solver", "input"
+CANDIDATE, MODEL, REFERENCE, TWIN, SOLVER, INPUT = "candidate", "model", "reference", "twin", "solver", "input"
 
 
 @dataclass

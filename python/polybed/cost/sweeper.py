@@ -2,14 +2,14 @@
 
 import numpy as np
 
-from polybed.cost.axes import MACHINE, MODEL, NUMERICS, axes_of, setting
+from polybed.cost.axes import MODEL, NUMERICS, axes_of, setting
 from polybed.cost.judge import settings_text
 from polybed.cost.quantities import measure_on, quantities_of, quantities_of_run
 from polybed.cost.runner import RunOrder, RunOutcome
 from polybed.cost.sweep import CANDIDATE, TWIN, Row, Sweep
 from polybed.ending import WRONG_CASE, StudyError
 from polybed.study.measured import TimeMean, centre_column, species_of, within
-from polybed.study.record import remark
+from polybed.study.output import remark
 
 WINDOW_BEGIN = 0.75  # of the run: the last quarter
 OVERDRAFT = 1.08  # of the budget, which is kept to a tenth
@@ -72,7 +72,7 @@ class Sweeper:
         levels = [axis.levels[settings[axis.name]] for axis in self.sweep.axes]
         model = [self.sweep.options.model, *(level.model for level in levels if level.model)][-1]
         overrides = [override for level in levels for override in level.overrides]
-        return RunOrder(model, max([1, *(level.ranks for level in levels)]), (*overrides, *more))
+        return RunOrder(model, (*overrides, *more))
 
     def on_line(self, name, level):
         """Settings that differ from the centre on one axis."""
@@ -99,8 +99,6 @@ class Sweeper:
             return row.outcome.wall / self.centre_row.outcome.wall
         if axis.name == "grid":
             return self.grid_ratio(axis, level)
-        if axis.name == "window":
-            return (3 + axis.levels[level].value) / 4
         if axis.name == "steps":
             return axis.levels[level].value / axis.levels[self.centre[axis.name]].value
         return MUCH_DEARER if axis.levels[level].model == "dem" else 1.0
@@ -178,7 +176,7 @@ class Sweeper:
         for axis in self.sweep.axes:
             for level in range(len(axis.levels)) if axis.kind == kind else ():
                 settings = self.on_line(axis.name, level)
-                other = kind in (MODEL, MACHINE) and level != self.centre[axis.name]  # no better or worse numerics
+                other = kind == MODEL and level != self.centre[axis.name]  # no better or worse numerics
                 self.run(Row(self.order_of(settings), kind if other else CANDIDATE, settings), 0.5 if kind == MODEL else 1.0)
 
     def tight(self, more=()):
@@ -192,4 +190,4 @@ class Sweeper:
             overrides += level.overrides
         if self.sweep.options.model == "tfm" and self.sweep.axis("rtol") is None:
             overrides.append("tfm.rtol=1e-7")
-        return RunOrder(self.sweep.options.model, 1, (*overrides, *more))
+        return RunOrder(self.sweep.options.model, (*overrides, *more))

@@ -4,12 +4,12 @@ import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib import animation
 
-from polybed import search
 from polybed.drawing.fields import voidages
 from polybed.drawing.maps import Group, draw_maps
 from polybed.drawing.particles import views_of
 from polybed.drawing.style import as_shown, fitted, greatest_fraction, in_plane, shown_height, title_of
-from polybed.in_place import in_place
+from polybed.files import in_place
+from polybed.runner import found_program
 
 LENGTH = 12  # s, about what a film lasts
 RATES = (2, 25)  # frames per second, least and most
@@ -36,7 +36,7 @@ def digits_of(times):
 
 def has_ffmpeg():
     """Whether MP4 can be made."""
-    return search.find("ffmpeg") is not None
+    return found_program("ffmpeg") is not None
 
 
 def particle_frames(run):
@@ -74,7 +74,7 @@ def film(run, path, rate=None, progress=None):
     progress: called with the number of frames done and in all.
     """
     figure, count, show = particle_frames(run) if len(run.particles) else field_frames(run)
-    found = {"animation.ffmpeg_path": search.find("ffmpeg") or "ffmpeg"}
+    found = {"animation.ffmpeg_path": found_program("ffmpeg") or "ffmpeg"}
     # The writer knows the kind of film by the ending.
     try:
         with in_place(path, ".temporary" + path.suffix) as temporary, plt.rc_context(found):

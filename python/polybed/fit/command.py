@@ -12,10 +12,9 @@ from polybed.fit.fitting import Problem
 from polybed.fit.page import COLUMNS, page, write_errors
 from polybed.fit.rows import read_points
 from polybed.runner import answer_of
-from polybed.study import output_folder
+from polybed.study.output import draw, remark, taken, write_record
 from polybed.study.cases import laws_of
 from polybed.ending import DONE, NUMBERS, WRONG_CASE, StudyError, answer, guarded
-from polybed.study.record import draw, remark, write_record
 from polybed.tables import text_table
 
 INTERVAL = (2.5, 97.5)  # per cent of the draws
@@ -156,7 +155,7 @@ def make(given):
     folder = given.output or Path("runs") / f"{name}-fit"
     if (folder / "fit.json").exists() and not given.force:
         raise StudyError(WRONG_CASE, f"{folder} holds a fit already: --force replaces it, -o names another folder")
-    with output_folder.taken(folder):
+    with taken(folder):
         record = fit(given, folder)
         text = write_record(folder / "fit.json", record)
     if given.picture:

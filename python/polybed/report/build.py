@@ -9,13 +9,12 @@ from polybed import page
 from polybed.drawing.style import length_unit
 from polybed.drawing.units import text
 from polybed.ending import made
-from polybed.files import contents_of
-from polybed.in_place import in_place
+from polybed.files import contents_of, in_place
 from polybed.read import Snapshot
 from polybed.record import case_of, title_of_case
 from polybed.report import sections
 from polybed.report.beds import maps_of, particles_of
-from polybed.report.card import card_of
+from polybed.report.sections import card_of
 from polybed.report.series import history_of, profiles_of
 
 SCRIPT = Path(__file__).with_name("viewer.js").read_text(encoding="utf-8")

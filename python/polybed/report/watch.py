@@ -22,7 +22,7 @@ from polybed.read import Snapshot
 from polybed.record import case_of
 from polybed.report import sections
 from polybed.report.build import drawn, embedded, page_of, parts, told, under, write
-from polybed.study.output_folder import writes
+from polybed.study.output import writes
 
 LOOPBACK = "127.0.0.1"
 RENEWED = 2.0  # s between two looks at the run
@@ -59,35 +59,12 @@ def limits_now(directory):
     return Counter(reason for _, reason in sections.rows_of_steps(lines)).most_common()
 
 
-class Progress:
-    """How far a run is and how long it still takes, by what it has simulated while it was watched."""
-
-    def __init__(self):
-        self.first = None  # (time of the clock, simulated time) when the run was seen first
-
-    def of(self, run, clock, goes_on):
-        """(share done, line): share None if the end is not known."""
-        history = run.history
-        now = float(history["time_s"][-1]) if history and len(history["time_s"]) else 0.0
-        end = case_of(run.record).get("run", {}).get("until")
-        state = run.record.get("state", "no run.json yet")
-        if not isinstance(end, (int, float)) or end <= 0:
-            return None, f"{text(now, 's')} simulated, {state}"
-        line = f"{text(now, 's')} of {text(end, 's')} simulated"
-        if not goes_on:
-            return now / end, f"{line}, {'no process writes this run' if state == 'running' else state}"
-        self.first = self.first or (clock, now)
-        seconds, simulated = clock - self.first[0], now - self.first[1]
-        left = f", about {text((end - now) * seconds / simulated, 's', 2)} left" if simulated > 0 else ""
-        return now / end, line + left
-
-
 class Watched:
     """A run that is looked at again and again: what the server answers with."""
 
     def __init__(self, directory):
         self.run = Snapshot(directory)
-        self.directory, self.progress = self.run.directory, Progress()
+        self.directory, self.first = self.run.directory, None  # (time of the clock, simulated time) when the run was seen first
         self.version, self.seen, self.ended = 0, -1, False
         self.wait, self.answer, self.lock = RENEWED, b"{}", threading.Lock()
 
@@ -107,8 +84,22 @@ class Watched:
             self.run, self.version, self.answer, self.ended = run, self.version + 1, text_of.encode(), not goes_on
         self.wait = max(RENEWED, (time.monotonic() - begin) / SHARE)
 
+    def progress(self, run, goes_on):
+        """(share done, line): share None if the end is not known; how long it still takes is by what was simulated while it was watched."""
+        now = float(max(run.history.get("time_s", ()), default=0.0))
+        end = case_of(run.record).get("run", {}).get("until")
+        state = run.record.get("state", "no run.json yet")
+        if not isinstance(end, (int, float)) or end <= 0:
+            return None, f"{text(now, 's')} simulated, {state}"
+        line = f"{text(now, 's')} of {text(end, 's')} simulated"
+        if not goes_on:
+            return now / end, f"{line}, {'no process writes this run' if state == 'running' else state}"
+        self.first = self.first or (time.time(), now)
+        seconds, simulated = time.time() - self.first[0], now - self.first[1]
+        return now / end, line + (f", about {text((end - now) * seconds / simulated, 's', 2)} left" if simulated > 0 else "")
+
     def shown(self, run, goes_on):
-        share, line = self.progress.of(run, time.time(), goes_on)
+        share, line = self.progress(run, goes_on)
         bar = "" if share is None else markup('<progress value="{}"></progress>', f"{max(0.0, min(1.0, share)):.4f}")
         now = limits_now(self.directory)
         step = run.record.get("step", {}).get("limited_by")

@@ -12,11 +12,10 @@ import sys
 import tempfile
 from pathlib import Path
 
-from polybed.study import output_folder
+from polybed.study.output import draw, remark, taken, write_record
 from polybed.study.cases import Case
 from polybed.study.closure_band import band_of, tilt_of, width_of, write_moved
 from polybed.ending import DONE, NUMBERS, WRONG_CASE, StudyError, answer, guarded
-from polybed.study.record import draw, remark, write_record
 from polybed.runner import answer_of, call, words_of
 from polybed.study.stress_uncertainty import late_means, run_again, run_case
 
@@ -152,7 +151,7 @@ def make_inversion(request):
     record, plain = inversion_band(request, bed)
     if request["output"]:
         folder = Path(request["output"])
-        with output_folder.taken(folder):
+        with taken(folder):
             write_record(folder / "closure_uncertainty.json", record)
             if request["picture"]:
                 draw(folder / "closure_uncertainty.json", "picture", True)

@@ -14,8 +14,7 @@ from polybed.study import compare_report as report
 from polybed.study.cases import Case, differences, roles_in_both_models
 from polybed.ending import DONE, FILE, WRONG_CASE, StudyError, answer, guarded
 from polybed.study.measured import measured
-from polybed.study.output_folder import taken
-from polybed.study.record import draw, remark, write_record
+from polybed.study.output import draw, remark, taken, write_record
 from polybed.runner import answer_of, flags, has_checkpoint, ranks, run, words_of
 from polybed.study.scores import MODELS, add_inversion, compare
 

@@ -18,8 +18,7 @@ from polybed.study.cases import Case, hash_of
 from polybed.ending import DONE, WRONG_CASE, StudyError, answer, guarded
 from polybed.study.inversion_search import Mean, search
 from polybed.study.measured import means_of
-from polybed.study.output_folder import taken
-from polybed.study.record import draw, write_record
+from polybed.study.output import draw, taken, write_record
 from polybed.runner import flags, has_checkpoint, ranks, run, words_of
 from polybed.study.stress_uncertainty import moved_table
 

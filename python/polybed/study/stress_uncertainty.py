@@ -10,12 +10,12 @@ import sys
 from pathlib import Path
 
 from polybed.calibration.fit import Table
-from polybed.in_place import in_place
+from polybed.files import in_place
 from polybed.solids_table import read_table
 from polybed.study.cases import Case
 from polybed.ending import DONE, WRONG_CASE, StudyError, guarded
 from polybed.study.measured import means_of
-from polybed.study.record import remark, write_record
+from polybed.study.output import remark, write_record
 from polybed.runner import asked, flags, has_checkpoint, run, words_of
 
 

@@ -9,12 +9,11 @@ from pathlib import Path
 from polybed.drawing.units import duration
 from polybed.ending import DONE, FILE, NUMBERS, WRONG_CASE, StudyError, answer, guarded
 from polybed.folder import read_record
-from polybed.in_place import put_text
+from polybed.files import put_text
 from polybed.program import finished
 from polybed.runner import commit_and_build, flags, has_checkpoint, run, sources, words_of
 from polybed.study.cases import Case
-from polybed.study.output_folder import taken
-from polybed.study.record import json_text, remark
+from polybed.study.output import json_text, remark, taken
 from polybed.tables import text_table
 from polybed.validation import report
 from polybed.validation.entries import MODELS, NO_RUN, entry_named, folder, names

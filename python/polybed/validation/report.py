@@ -2,8 +2,7 @@
 
 import json
 
-from polybed.files import FormatError, read_json, read_text
-from polybed.in_place import put_text
+from polybed.files import FormatError, put_text, read_json, read_text
 from polybed.page import Html, markup, page, section, source
 from polybed.page import table as html_table
 from polybed.tables import markdown_table

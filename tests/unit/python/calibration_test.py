@@ -20,9 +20,8 @@ os.environ["POLYBED"], PACKAGE = os.path.abspath(sys.argv[1]), sys.argv[2]
 sys.path.insert(0, PACKAGE)
 
 from polybed.calibration import bed, fit
-from polybed.calibration.boxes import MEANS, SINGLE, Boxes, read_box
+from polybed.calibration.boxes import MEANS, SINGLE, Boxes, Plan, Point, read_box
 from polybed.calibration.check import deviation, deviation_lines, points_between
-from polybed.calibration.plan import Plan, Point
 from polybed.calibration.text import box_lines
 from polybed.ending import NUMBERS, StudyError
 from polybed.errors import ProgramError

@@ -18,9 +18,8 @@ os.environ["POLYBED"] = PROGRAM
 
 from polybed.cost import command, quantities  # noqa: E402
 from polybed.cost.axes import axes_of, grid_level, level_axis, numbers  # noqa: E402
-from polybed.cost.fit import Priced, fit_power_law, pareto_front  # noqa: E402
+from polybed.cost.fit import Priced, fit_power_law, pareto_front, refine  # noqa: E402
 from polybed.cost.judge import carries  # noqa: E402
-from polybed.cost.refinement import refine  # noqa: E402
 from polybed.cost.report import advice, shares_json  # noqa: E402
 from polybed.cost.sweep import Share  # noqa: E402
 from polybed.cost.sweeper import is_chaotic  # noqa: E402

@@ -23,9 +23,8 @@ sys.path.insert(0, PACKAGE)
 from report_pages import EVIL, Page, add_case, data_of
 
 import polybed
-from polybed import outflow
 from polybed.drawing import curves, units
-from polybed.report import beds, build, card, pack, sections
+from polybed.report import beds, build, pack, sections
 
 MOST_BYTES = 10e6  # of a page
 
@@ -296,15 +295,15 @@ class Outflow(unittest.TestCase):
         self.history = {"time_s": t, "mass_fine_kg": np.full(101, 2.0), "in_fine_kg": 0.1 * t, "out_fine_kg": 0.1 * t}
 
     def test_recovery_and_rate(self):
-        self.assertAlmostEqual(outflow.recovery(self.history, ["fine"])["fine"][-1], 1 / 3)
-        time_of, rate = outflow.discharge_rate(self.history, ["fine"])
+        self.assertAlmostEqual(curves.recovery(self.history, ["fine"])["fine"][-1], 1 / 3)
+        time_of, rate = curves.discharge_rate(self.history, ["fine"])
         np.testing.assert_allclose(rate, 0.1)
-        self.assertAlmostEqual(time_of[0], 10 / outflow.PARTS / 2)
+        self.assertAlmostEqual(time_of[0], 10 / curves.PARTS / 2)
 
     def test_nothing_leaves(self):
         self.history["out_fine_kg"] *= 0
-        self.assertEqual(outflow.mass_out(self.history, ["fine"]), {})
-        self.assertEqual(len(outflow.discharge_rate(self.history, ["fine"])[0]), 0)
+        self.assertEqual(curves.mass_out(self.history, ["fine"]), {})
+        self.assertEqual(len(curves.discharge_rate(self.history, ["fine"])[0]), 0)
 
     def test_panels(self):
         run = types.SimpleNamespace(history=self.history, species=["fine"], kinds={"fine": ["fine"]})
@@ -339,7 +338,7 @@ class Written(unittest.TestCase):
 
     def test_a_recorded_card_is_rendered(self):
         rows = ["bed           fluidised, mixed, 271 \u00b1 4 mm high", "fluidises at  fine <b> 1.05 mm/s", "              estimate by Beverloo's law"]
-        found = Page(card.recorded(rows))
+        found = Page(sections.recorded(rows))
         self.assertEqual([tag for tag, _ in found.elements].count("td"), 6)
         self.assertIn("bedfluidised, mixed, 271 \u00b1 4 mm highfluidises atfine <b> 1.05 mm/sestimate", "".join(found.text))
 

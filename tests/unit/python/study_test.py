@@ -19,7 +19,7 @@ from polybed import ending  # noqa: E402
 from polybed.quantities import Named  # noqa: E402
 from polybed.record import drift_lines  # noqa: E402
 from polybed.runner import asked, run_within  # noqa: E402
-from polybed.study import output_folder  # noqa: E402
+from polybed.study.output import subfolder, taken, writes  # noqa: E402
 from polybed.study.measured import Window, means_of, species_of, statistics_of, within  # noqa: E402
 from stored_run import Written  # noqa: E402
 
@@ -88,17 +88,17 @@ class Folders(unittest.TestCase):
 
     def refused(self, code):
         """What the program says of it: tests/cli/directories_test.py."""
-        with self.assertRaises(ending.StudyError) as caught, output_folder.taken(self.folder):
+        with self.assertRaises(ending.StudyError) as caught, taken(self.folder):
             pass
         self.assertEqual((caught.exception.code, str(caught.exception)), (code, ""))
 
     def test_one_process_at_a_time(self):
-        with output_folder.taken(self.folder):
+        with taken(self.folder):
             self.assertRegex((self.folder / ".polybed").read_text(), "process [0-9]+ on")
-            self.assertTrue(output_folder.writes(self.folder))
+            self.assertTrue(writes(self.folder))
             self.refused(ending.FILE)
         self.assertFalse(self.folder.exists(), "nothing was written")
-        with output_folder.taken(self.folder):
+        with taken(self.folder):
             pass
 
     def test_what_is_not_polybeds_is_kept(self):
@@ -111,19 +111,19 @@ class Folders(unittest.TestCase):
         asked("mark", folder=self.folder)
         (self.folder / "runs").symlink_to("..")
         with self.assertRaisesRegex(ending.StudyError, "it is a link"):
-            output_folder.subfolder(self.folder, "runs")
+            subfolder(self.folder, "runs")
 
     def test_a_child_is_ended_when_its_time_is_over(self):
         output = Path(str(self.folder) + ".txt")
-        self.assertEqual(run_within(60, ["--version"], 1, output)[:2], (0, False))
+        self.assertEqual(run_within(60, ["--version"], output)[:2], (0, False))
         self.assertIn("polybed", output.read_text())
-        self.assertEqual(run_within(60, ["nonsense"], 1, output).code, ending.WRONG_CASE)
+        self.assertEqual(run_within(60, ["nonsense"], output).code, ending.WRONG_CASE)
         sleeping = self.folder.parent / "sleeping"
         sleeping.write_text("#!/bin/sh\nexec sleep 60\n")
         sleeping.chmod(0o755)
         begin, os.environ["POLYBED"] = time.monotonic(), str(sleeping)
         try:
-            end = run_within(0.2, [], 1, output)
+            end = run_within(0.2, [], output)
         finally:
             os.environ["POLYBED"] = PROGRAM
         self.assertEqual(end[:2], (128 + signal.SIGKILL, True))
