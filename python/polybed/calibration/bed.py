@@ -13,7 +13,7 @@ UNITS = "p_bed over |rho_p - rho_f| g D; theta_bed over that and rho_p; velocity
 
 def bed_table(seeds, boxes, weight):
     """Means over the seeds of each point, in rising phi. weight: |rho_p - rho_f| g D/rho_p, m2/s2"""
-    points = list(grouped(boxes, seeds))
+    points = grouped(boxes, seeds)
     slabs, balance = ([mean_of_seeds([tuple(box[name]) for box in point]) for point in points] for name in ("p_bed", "p_bed_by_balance"))
     return Table({
         "phi": [sum(box["bed_phi"] / len(point) for box in point) for point in points],

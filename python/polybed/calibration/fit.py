@@ -1,5 +1,6 @@
 """From boxes to a table: means over seeds, their errors, and whether the table may be used."""
 
+import itertools
 import math
 from dataclasses import dataclass, field
 
@@ -59,35 +60,26 @@ def mean_of_seeds(seeds):
     Student's factor. Seeds are independent, and blocks of one are not: they remember the start, which makes their error too small, and
     count as error what all boxes lose on their way, which makes it too great. Of two seeds, the error of the boxes' own together if it is
     more; of one that."""
-    n = len(seeds)
-    mean = sum(m for m, _ in seeds) / n
-    inner = math.sqrt(sum(error * error for _, error in seeds)) / n
+    (means, errors), n = zip(*seeds), len(seeds)
+    mean, inner = float(np.mean(means)), math.hypot(*errors) / n
     if n < 2:
         return mean, inner
-    outer = student_one_sigma(n - 1) * math.sqrt(sum((m - mean) * (m - mean) for m, _ in seeds) / (n * (n - 1)))
+    outer = student_one_sigma(n - 1) * float(np.std(means, ddof=1)) / math.sqrt(n)
     return mean, max(inner, outer) if n < SCATTER_SEEDS else outer
 
 
 def grouped(boxes, seeds):
     """The boxes of each point."""
-    first = 0
-    for count in seeds:
-        yield boxes[first:first + count]
-        first += count
+    ends = list(itertools.accumulate(seeds))
+    return [boxes[end - count:end] for end, count in zip(ends, seeds)]
 
 
 def fitted_inertia(stokes, pressure):
     """lambda of p = mu_f gamma V (1 + lambda St): slope over intercept of p/(mu_f gamma V) in St, by relative deviations, the median over
     the solids fractions; 0 where it would not be positive. pressure: [phi][stokes]"""
-    found = []
-    for row in pressure:
-        weight = [1 / (value * value) for value in row]
-        n, x, y = sum(weight), sum(w * s for w, s in zip(weight, stokes)), sum(w * v for w, v in zip(weight, row))
-        xx, xy = sum(w * s * s for w, s in zip(weight, stokes)), sum(w * s * v for w, s, v in zip(weight, stokes, row))
-        slope = (n * xy - x * y) / (n * xx - x * x)
-        intercept = (y - slope * x) / n
-        found.append(slope / intercept if intercept > 0 else 0.0)
-    return max(sorted(found)[len(found) // 2], 0.0)
+    lines = [np.polyfit(stokes, row, 1, w=1 / np.asarray(row)) for row in pressure]
+    found = [slope / intercept if intercept > 0 else 0.0 for slope, intercept in lines]
+    return max(float(sorted(found)[len(found) // 2]), 0.0)
 
 
 def shear_number(box):
@@ -98,18 +90,18 @@ def shear_number(box):
 def fitted(plan, boxes):
     """The table of sheared boxes in the order of a plan. Its curves pass through the means of the seeds."""
     axes = {name: list(map(float, plan.axes[name])) for name in AXES}
-    points = list(grouped(boxes, plan.seeds))
+    points = grouped(boxes, plan.seeds)
     plain = [sum(box["p_ratio"][0] / len(point) for box in point) for point in points]
     inertia = 0.0
     if plan.regime == "wet" and len(axes["stokes"]) > 1:  # of the first restitution, friction and share
         inertia = fitted_inertia(axes["stokes"], np.reshape(plain, (len(axes["phi"]), len(axes["stokes"]), -1))[:, :, 0].tolist())
     table = Table(axes, {"regime": plan.regime, "reference": plan.case["reference"], "lambda": inertia})
     for name in ("p_ratio", "mu_ratio", "gamma_ratio"):
-        add_means(table, name, name, points, [1 / (1 + inertia * point.stokes) for point in plan.points()])
+        add_means(table, name, name, points, np.array([1 / (1 + inertia * point.stokes) for point in plan.points()]))
     add_means(table, "T_ratio_12", "temperature_ratio", points)
     table.put("S", [sum(shear_number(box) / len(point) for box in point) for point in points])
     if plan.pushed:
-        pushed = list(grouped(boxes[sum(plan.seeds):], plan.seeds))
+        pushed = grouped(boxes[sum(plan.seeds):], plan.seeds)
         add_means(table, "beta_12_ratio", "exchange_ratio", pushed)
         # the drift over sqrt(theta) up to which all points were measured
         table.arrays["beta_12_drift"] = [min(max(abs(box["slip_over_sqrt_theta"]) for box in point) for point in pushed)]
@@ -117,11 +109,11 @@ def fitted(plan, boxes):
     return table
 
 
-def add_means(table, name, of_box, points, per=None):
-    per = per or [1.0] * len(points)
-    means = [mean_of_seeds([tuple(box[of_box]) for box in point]) for point in points]
-    table.put(name, [mean * share for (mean, _), share in zip(means, per)])
-    table.put(f"{name}_se", [error * share for (_, error), share in zip(means, per)])
+def add_means(table, name, of_box, points, per=1.0):
+    """Adds the means over the seeds of each point, times `per`, with their errors and numbers of seeds."""
+    means, errors = np.transpose([mean_of_seeds([tuple(box[of_box]) for box in point]) for point in points])
+    table.put(name, means * per)
+    table.put(f"{name}_se", errors * per)
     table.put(f"{name}_n", [float(len(point)) for point in points])
 
 

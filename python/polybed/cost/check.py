@@ -4,7 +4,7 @@ import tempfile
 import tomllib
 from pathlib import Path
 
-from polybed.cost.quantities import measure_on, quantities_of_run
+from polybed.cost.quantities import quantities_of_run
 from polybed.cost.runner import Runner, RunOrder
 from polybed.cost.scene import Scene
 from polybed.files import contents_of, put_text, read_json, read_text
@@ -39,13 +39,13 @@ def run_again(sweep, advised, folder):
     with contents_of(folder / "cost.json"):
         order = RunOrder(advised["model"], tuple(advised["overrides"]))
         seconds = 60 + 20 * sweep["runs"][advised["run"]]["wall_s"][0]
-        on = measure_on(tomllib.loads(sweep["case"]), sweep["window_s"])
+        on = sweep["window_s"], tomllib.loads(sweep["case"])["column"]["cells"][1]
         overrides = sweep["overrides"]
     (folder / "check").mkdir(exist_ok=True)
     outcome = Runner(scene_of(sweep), overrides, folder / "check", False).run(order, seconds)
     if not outcome.done:
         raise StudyError(NUMBERS, f"the run that was recommended: {outcome.state}: {outcome.reason}")
-    return outcome, quantities_of_run(outcome.measured, on)
+    return outcome, quantities_of_run(outcome.measured, *on)
 
 
 def check_recommendation(folder):

@@ -27,10 +27,9 @@ def fit_power_law(x, y):
     points = np.log([pair for pair in zip(x, y) if pair[0] > 0 and pair[1] > 0]).reshape(-1, 2)
     if len(points) < 2 or np.ptp(points[:, 0]) == 0 or not np.isfinite(points).all():
         return None
-    mean = points.mean(axis=0)
-    a, b = (points - mean).T
-    exponent = (a @ b) / (a @ a)
-    return PowerLaw(float(np.exp(mean[1] - exponent * mean[0])), float(exponent), float(np.sqrt(np.mean((b - exponent * a) ** 2))))
+    x, y = points.T
+    exponent, constant = np.polyfit(x, y, 1)
+    return PowerLaw(float(np.exp(constant)), float(exponent), float(np.sqrt(np.mean((y - constant - exponent * x) ** 2))))
 
 
 class Priced(NamedTuple):

@@ -45,8 +45,7 @@ def measure_distances(sweep):
     """Gives the rows the distances of their mean profiles from that of the reference."""
     for row in sweep.rows:
         if row.done and row.measured.directory and sweep.reference.directory:
-            on = sweep.on
-            found = means_of(row.measured.directory, beside=sweep.reference.directory, begin=on.window.begin, slabs=on.slabs).distances
+            found = means_of(row.measured.directory, sweep.reference.directory, sweep.begin, sweep.slabs).distances
             row.quantities |= {name: RowQuantity(found[name].mean, found[name].mean) for name in ("composition", "profile") if name in found}
 
 

@@ -4,10 +4,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import NamedTuple
 
-import numpy as np
-
 from polybed.quantities import TABLE
-from polybed.study.measured import Window, centre_column, means_of, species_of
+from polybed.study.measured import centre_column, means_of, species_of
 
 HELP = {row["name"]: row["help"] for part in ("bed", "distances") for row in TABLE[part]}
 ENOUGH = 30  # autocorrelation times in a window
@@ -21,22 +19,11 @@ class QuantityInfo(NamedTuple):
     scale: str
 
 
-class MeasureOn(NamedTuple):
-    """Slabs of the case as it is given, whatever the grid of the run."""
-    slabs: int
-    window: Window
-
-
 @dataclass
 class RunQuantities:
     values: dict = field(default_factory=dict)  # those that the run has, TimeMean
     directory: Path | None = None  # of the run, if it has stored profiles in the window
     too_short: str = ""  # a quantity with fewer than 30 autocorrelation times
-
-
-def measure_on(keys, begin):
-    """The slabs of a resolved case, and the window from `begin`, s, on."""
-    return MeasureOn(keys["column"]["cells"][1], Window(begin, np.inf))
 
 
 def quantities_of(species):
@@ -51,13 +38,13 @@ def quantities_of(species):
     return [*found, measure("profile", "1", SHARE)]
 
 
-def quantities_of_run(run, on):
-    """By the definitions of docs/reference/measures.md, on the slabs asked for. Heights and centres are means of the rows of the history,
+def quantities_of_run(run, begin, slabs):
+    """By the definitions of docs/reference/measures.md, from a time on, s, on so many slabs of the column. Heights and centres are means of the rows of the history,
     moved by what the profiles stored in the window differ by if measured on these slabs."""
     species, found = species_of(run.history), RunQuantities()
-    if not (run.history["time_s"] > on.window.begin).any():  # all particles had left before it
+    if not (run.history["time_s"] > begin).any():  # all particles had left before it
         return found
-    [measured] = means_of(run.directory, begin=on.window.begin, slabs=on.slabs).runs
+    [measured] = means_of(run.directory, begin=begin, slabs=slabs).runs
     columns = {"bed_height": "bed_height_m", **{f"centre_{name}": centre_column(name) for name in species},
                "pressure_drop": "pressure_drop_over_weight"}
     if len(species) > 1:

@@ -29,7 +29,7 @@ def means_of(row):
 
 
 def given_reference(sweep, folder):
-    found = quantities_of_run(measured(folder), sweep.on)
+    found = quantities_of_run(measured(folder), sweep.begin, sweep.slabs)
     sweep.reference = Reference("directory", folder, {name: mean.mean for name, mean in found.values.items()}, directory=found.directory)
     set_bands(sweep, found.values)
 

@@ -73,7 +73,7 @@ def sweep_json(sweep, scene, overrides):
         "case_hash": scene.hash, "overrides": overrides, "model": sweep.options.model, "clock": sweep.options.clock,
         "work_version": VERSION, "target": sweep.options.target, "budget_s": sweep.options.budget,
         "machine": {"cpu": processor(), "cores": len(os.sched_getaffinity(0)), "build": build}, "outcome": sweep.outcome,
-        "reason": sweep.reason, "regime": sweep.regime, "window_s": sweep.on.window.begin,
+        "reason": sweep.reason, "regime": sweep.regime, "window_s": sweep.begin,
         "reference": {"kind": sweep.reference.kind, "note": sweep.reference.note, **reference}, "qoi": quantities,
         "runs": [row_json(sweep, row) for row in sweep.rows],
         "fit": {name: law._asdict() if law else None for name, law in laws.items()} | {"additive_off": finite(sweep.additive_off)},

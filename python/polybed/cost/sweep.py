@@ -5,7 +5,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from polybed.cost.fit import Priced
-from polybed.cost.quantities import MeasureOn, RunQuantities
+from polybed.cost.quantities import RunQuantities
 from polybed.cost.runner import RunOrder, RunOutcome
 
 # What a row stands for.
@@ -73,7 +73,8 @@ class Sweep:
     options: SweepOptions
     axes: list = field(default_factory=list)
     quantities: list = field(default_factory=list)  # QuantityInfo
-    on: MeasureOn | None = None
+    begin: float = 0.0  # of the window, s
+    slabs: int = 1  # of the case as it is given, whatever the grid of the run
     rows: list = field(default_factory=list)
     outcome: str = "done"  # done | refused | failed
     reason: str = ""

@@ -4,11 +4,11 @@ import numpy as np
 
 from polybed.cost.axes import MODEL, NUMERICS, axes_of, setting
 from polybed.cost.judge import settings_text
-from polybed.cost.quantities import measure_on, quantities_of, quantities_of_run
+from polybed.cost.quantities import quantities_of, quantities_of_run
 from polybed.cost.runner import RunOrder, RunOutcome
 from polybed.cost.sweep import CANDIDATE, TWIN, Row, Sweep
 from polybed.ending import WRONG_CASE, StudyError
-from polybed.study.measured import TimeMean, centre_column, species_of, within
+from polybed.study.measured import ROUNDING, TimeMean, centre_column, species_of
 from polybed.study.output import remark
 
 WINDOW_BEGIN = 0.75  # of the run: the last quarter
@@ -56,7 +56,7 @@ class Sweeper:
         self.scene, self.runner, self.sweep = scene, runner, Sweep(options)
         self.sweep.quantities = quantities_of(scene.species)
         self.sweep.axes = axes_of(scene, options.model, options.axes)
-        self.sweep.on = measure_on(scene.keys, WINDOW_BEGIN * scene.of("run.until"))
+        self.sweep.begin, self.sweep.slabs = WINDOW_BEGIN * scene.of("run.until"), scene.cells[1]
         options.quantities = checked_quantities(options, [q.id for q in self.sweep.quantities], scene.species)
         self.centre = {axis.name: 0 if axis.name == "grid" else axis.given for axis in self.sweep.axes}
         self.centre_row = None
@@ -138,7 +138,7 @@ class Sweeper:
         if row.done and not row.outcome.invariants_held:
             row.outcome.reason = "an invariant exceeded its limit"
         if row.outcome.measured:
-            row.measured = quantities_of_run(row.outcome.measured, sweep.on)
+            row.measured = quantities_of_run(row.outcome.measured, sweep.begin, sweep.slabs)
         row.outcome.measured = None
         row.rate = row.outcome.rate(sweep.options.clock)
         reason = f" ({row.outcome.reason})" if row.outcome.reason else ""
@@ -166,7 +166,7 @@ class Sweeper:
             sweep.warnings.append("taken to be steady: the run that would tell, with gravity (1 + 1e-10), was not done")
             return True
         columns = ["bed_height_m", *map(centre_column, species_of(history))]
-        if any(is_chaotic(*(within(h["time_s"], h[column], sweep.on.window) for h in (history, twin))) for column in columns):
+        if any(is_chaotic(*(h[column][h["time_s"] >= sweep.begin * (1 - ROUNDING)] for h in (history, twin))) for column in columns):
             sweep.regime = "chaotic"
         self.tell(sweep.regime)
         return True

@@ -14,10 +14,11 @@ from pathlib import Path
 
 import numpy as np
 
-from polybed.files import read_text
+from polybed.files import finite, read_text
 from polybed.ending import FILE, WRONG_CASE, StudyError
 
 SHARES = "inferred_xj_sarkar.csv"
+FORCES = ("f_LBM", "f_TL", "n", "f")  # columns of one size; n is the net force, the others the pure drag
 
 
 @dataclass
@@ -37,51 +38,45 @@ class Point:
         return (self.voidage, self.reynolds, *self.share, *self.diameter / self.diameter[0], *self.net)
 
 
-class Lines:
-    """The lines of a table, each a dictionary, with their numbers in the file."""
+class Row(dict):
+    """A line of a table by its columns."""
 
-    def __init__(self, path):
-        self.path = path
-        numbered = [(n, line) for n, line in enumerate(read_text(path).split("\n"), 1) if line.strip() and not line.startswith("#")]
-        if not numbered:
-            raise StudyError(WRONG_CASE, f"{path}: no header and no rows")
-        try:
-            self.columns, *cells = csv.reader(line for _, line in numbered)
-        except csv.Error as error:
-            raise StudyError(WRONG_CASE, f"{path}: no table: {error}") from error
-        self.rows = []
-        for (number, _), row in zip(numbered[1:], cells):
-            if len(row) != len(self.columns):
-                raise StudyError(WRONG_CASE, f"{path}:{number}: {len(row)} cells, the header has {len(self.columns)}")
-            self.rows.append((number, dict(zip(self.columns, row))))
+    def __init__(self, path, line, cells):
+        super().__init__(cells)
+        self.path, self.where = path, f"{path}:{line}"
 
-    def has(self, *columns):
-        return set(columns) <= set(self.columns)
-
-    def where(self, number):
-        return f"{self.path}:{number}"
-
-    def number(self, row, column, missing=None):
+    def number(self, column, missing=None):
         """A cell as a number. missing: the value of an empty cell or a missing column; None refuses it"""
-        line, cells = row
-        text = cells.get(column, "")
+        text = self.get(column, "")
         if text == "" and missing is not None:
             return missing
         try:
-            value = float(text)
+            return finite(text)
         except ValueError:
-            value = np.nan
-        if not np.isfinite(value):
-            place = self.columns.index(column) + 1 if column in self.columns else 0
-            raise StudyError(WRONG_CASE, f"{self.where(line)}: {column} (cell {place}) = '{text}' is no number")
-        return value
+            place = list(self).index(column) + 1 if column in self else 0
+            raise StudyError(WRONG_CASE, f"{self.where}: {column} (cell {place}) = '{text}' is no number") from None
 
 
-def point(lines, row, reynolds, share, diameter, net, error=None):
-    line = row[0]
+def rows_of(path):
+    """The lines of a table below its header."""
+    numbered = [(n, line) for n, line in enumerate(read_text(path).split("\n"), 1) if line.strip() and not line.startswith("#")]
+    if not numbered:
+        raise StudyError(WRONG_CASE, f"{path}: no header and no rows")
+    try:
+        columns, *lines = csv.reader(line for _, line in numbered)
+    except csv.Error as error:
+        raise StudyError(WRONG_CASE, f"{path}: no table: {error}") from error
+    for (number, _), cells in zip(numbered[1:], lines):
+        if len(cells) != len(columns):
+            raise StudyError(WRONG_CASE, f"{path}:{number}: {len(cells)} cells, the header has {len(columns)}")
+    return set(columns), [Row(path, number, zip(columns, cells)) for (number, _), cells in zip(numbered[1:], lines)]
+
+
+def point(row, reynolds, share, diameter, net, error=None):
+    """reynolds: its column"""
     share, diameter, net = (np.array(values, float) for values in (share, diameter, net))
     error = np.full(len(net), np.nan) if error is None else np.array(error, float)
-    voidage, where = lines.number(row, "eps"), lines.where(line)
+    voidage, reynolds = row.number("eps"), row.number(reynolds)
     refuse = [(not 0 < voidage <= 1, f"eps = {voidage:g} is outside (0, 1]"),
               (not reynolds >= 0, f"Reynolds number {reynolds:g} is below 0"),
               (not (share >= 0).all() or abs(share.sum() - 1) > 0.02, f"shares {share} are below 0 or do not sum to 1"),
@@ -89,39 +84,26 @@ def point(lines, row, reynolds, share, diameter, net, error=None):
               (np.isnan(net).all() or (net <= 0).any(), f"net forces {net} are not above 0")]
     for wrong, what in refuse:
         if wrong:
-            raise StudyError(WRONG_CASE, f"{where}: {what}")
-    return Point(Path(lines.path).name, where, voidage, reynolds, share / share.sum(), diameter, net, error)
+            raise StudyError(WRONG_CASE, f"{row.where}: {what}")
+    return Point(Path(row.path).name, row.where, voidage, reynolds, share / share.sum(), diameter, net, error)
 
 
-def one_size(lines, column):
-    points = []
-    for row in lines.rows:
-        given = lines.number(row, column)
-        net = given if column == "n" else given / lines.number(row, "eps")
-        error = lines.number(row, "n_se", np.nan) if column == "n" else np.nan
-        points.append(point(lines, row, lines.number(row, "Re"), [1], [1], [net], [error]))
-    return points
+def one_size(row):
+    column = next(name for name in FORCES if name in row)
+    per, error = (1, row.number("n_se", np.nan)) if column == "n" else (1 / row.number("eps"), np.nan)
+    return point(row, "Re", [1], [1], [per * row.number(column)], [error])
 
 
-def any_sizes(lines):
-    """The points in rows of `polybed resolve`. A size without share has an empty cell, or share 0, and no force."""
-    most = sum(f"D{j}" in lines.columns for j in range(1, 100))
-    points = []
-    for row in lines.rows:
-        found = [j for j in range(1, most + 1) if lines.number(row, f"x{j}", 0.0) > 0]
-        values = {name: [lines.number(row, name.format(j), missing) for j in found]
-                  for name, missing in (("x{}", None), ("D{}", None), ("n_{}", np.nan), ("n_{}_se", np.nan))}
-        points.append(point(lines, row, lines.number(row, "Re"), *values.values()))
-    return points
+def any_sizes(row):
+    """A row of `polybed resolve`. A size without share has an empty cell, or share 0, and no force."""
+    found = [j for j in range(1, len(row)) if row.number(f"x{j}", 0.0) > 0]
+    return point(row, "Re", *([row.number(name.format(j), missing) for j in found]
+                              for name, missing in (("x{}", None), ("D{}", None), ("n_{}", np.nan), ("n_{}_se", np.nan))))
 
 
-def two_sizes(lines):
-    points = []
-    for row in lines.rows:
-        first = lines.number(row, "x1")
-        points.append(point(lines, row, lines.number(row, "Rebar"), [first, 1 - first], [lines.number(row, "D1_over_D2_used"), 1],
-                            [lines.number(row, f"n{j}_LBM", np.nan) for j in (1, 2)]))
-    return points
+def two_sizes(row):
+    first = row.number("x1")
+    return point(row, "Rebar", [first, 1 - first], [row.number("D1_over_D2_used"), 1], [row.number(f"n{j}_LBM", np.nan) for j in (1, 2)])
 
 
 def inferred_shares(path):
@@ -129,36 +111,34 @@ def inferred_shares(path):
     beside = Path(path).parent / SHARES
     if not beside.is_file():
         raise StudyError(FILE, f"{path} has no shares x_j, and {beside} is missing")
-    lines = Lines(beside)
-    return {(row[1]["system"], lines.number(row, "y_j")): lines.number(row, "x_j") for row in lines.rows}
+    return {(row["system"], row.number("y_j")): row.number("x_j") for row in rows_of(beside)[1]}
 
 
-def row_for_each_size(lines):
+def row_for_each_size(rows):
     """Joins the rows of one system, voidage and Reynolds number to a point."""
-    shares = {} if lines.has("x_j") else inferred_shares(lines.path)
+    shares = {} if "x_j" in rows[0] else inferred_shares(rows[0].path)
     groups = {}
-    for row in lines.rows:
-        groups.setdefault((row[1]["system"], lines.number(row, "eps"), lines.number(row, "Rebar")), []).append(row)
+    for row in rows:
+        groups.setdefault((row["system"], row.number("eps"), row.number("Rebar")), []).append(row)
     points = []
-    for (system, _, reynolds), rows in groups.items():
-        y = [lines.number(row, "y_j") for row in rows]
-        x = [lines.number(row, "x_j") if not shares else shares.get((system, size), np.nan) for row, size in zip(rows, y)]
-        x = np.array(x) / np.sum(x) if abs(np.sum(x) - 1) < 0.1 else x  # some classes are not printed
-        points.append(point(lines, rows[0], reynolds, x, y, [lines.number(row, "n_j_LBM", np.nan) for row in rows]))
+    for (system, _, _), sizes in groups.items():
+        y = [row.number("y_j") for row in sizes]
+        x = np.array([shares.get((system, size), np.nan) if shares else row.number("x_j") for row, size in zip(sizes, y)])
+        x = x / x.sum() if abs(x.sum() - 1) < 0.1 else x  # some classes are not printed
+        points.append(point(sizes[0], "Rebar", x, y, [row.number("n_j_LBM", np.nan) for row in sizes]))
     return points
 
 
 def points_of_file(path):
-    lines = Lines(path)
-    for column in ("f_LBM", "f_TL", "n", "f"):
-        if lines.has("eps", "Re", column) and not lines.has("D1"):
-            return one_size(lines, column)
-    if lines.has("eps", "Re", "x1", "D1", "n_1"):
-        return any_sizes(lines)
-    if lines.has("eps", "Rebar", "D1_over_D2_used", "x1", "n1_LBM", "n2_LBM"):
-        return two_sizes(lines)
-    if lines.has("eps", "Rebar", "system", "y_j", "n_j_LBM"):
-        return row_for_each_size(lines)
+    columns, rows = rows_of(path)
+    if {"eps", "Re"} <= columns and "D1" not in columns and columns & set(FORCES):
+        return list(map(one_size, rows))
+    if {"eps", "Re", "x1", "D1", "n_1"} <= columns:
+        return list(map(any_sizes, rows))
+    if {"eps", "Rebar", "D1_over_D2_used", "x1", "n1_LBM", "n2_LBM"} <= columns:
+        return list(map(two_sizes, rows))
+    if {"eps", "Rebar", "system", "y_j", "n_j_LBM"} <= columns:
+        return row_for_each_size(rows) if rows else []
     raise StudyError(WRONG_CASE, f"{path}:1: unknown columns: expected eps,Re,n or eps,Re,x1,D1,...,n_1,n_1_se,... or a table of "
                                  "tests/data/lbm")
 

@@ -26,7 +26,6 @@ from polybed.cost.sweeper import is_chaotic  # noqa: E402
 from polybed.cost.work import counters_of, weighed  # noqa: E402
 from polybed.ending import StudyError  # noqa: E402
 from polybed.runner import call  # noqa: E402
-from polybed.study.measured import Window  # noqa: E402
 from stored_run import Written  # noqa: E402
 
 
@@ -216,20 +215,19 @@ class Quantities(unittest.TestCase):
         profiles = {"time_s": np.linspace(0, 10, rows + 1), "y_m": y, "phi_a": np.array([phi[n % len(phi)] for n in range(rows + 1)])}
         return Written(history, profiles)
 
-    def quantities_of(self, run, on):
+    def quantities_of(self, run, slabs):
         with tempfile.TemporaryDirectory() as folder:
-            return quantities.quantities_of_run(run.into(folder), on)
+            return quantities.quantities_of_run(run.into(folder), 7.5, slabs)
 
     def test_lengths_are_those_on_the_slabs_of_the_case(self):
         """The history has what the run's own slabs say; a coarser grid changes it by what its profiles change by."""
-        on = quantities.MeasureOn(40, Window(7.5, 10))
-        same = self.quantities_of(self.run_of(40, [0.1]), on)
+        same = self.quantities_of(self.run_of(40, [0.1]), 40)
         self.assertEqual(same.values["bed_height"].mean, 0.1)
         self.assertEqual(same.values["pressure_drop"].mean, 0.9)
-        coarse = self.quantities_of(self.run_of(20, [0.1]), on)
+        coarse = self.quantities_of(self.run_of(20, [0.1]), 40)
         # Of 20 slabs of 10 mm the half of 0.5 is passed midway between the centres at 95 and 105 mm, of 40 between 97.5 and 102.5 mm.
         self.assertAlmostEqual(coarse.values["bed_height"].mean, 0.1, delta=1e-12)
-        off = self.quantities_of(self.run_of(20, [0.11]), quantities.MeasureOn(10, Window(7.5, 10)))
+        off = self.quantities_of(self.run_of(20, [0.11]), 10)
         # Of 10 slabs of 20 mm the sixth has 0.25. Between z_0.80 = 88 mm and z_0.95 = 109 mm the mean is (12 x 0.25 + 9 x 0.0625)/(12 x
         # 0.5 + 9 x 0.25); its half is passed above the centre at 110 mm, where the run's own slabs have the height.
         half = 0.5 * 3.5625 / 8.25
@@ -242,8 +240,7 @@ class Quantities(unittest.TestCase):
         late = run.history["time_s"] > 7.4
         run.history["bed_height_m"] = np.where(late, 0.12, 0.1)
         run.profiles["phi_a"][run.profiles["time_s"] > 7.4] = np.where(run.profiles["y_m"] < 0.12, 0.4, 0.0)
-        on = quantities.measure_on({"column": {"size": [0.01, 0.2], "cells": [2, 40]}}, 7.5)
-        found = self.quantities_of(run, on)
+        found = self.quantities_of(run, 40)
         self.assertEqual(found.values["bed_height"].mean, 0.12)
 
 
