@@ -1,11 +1,11 @@
 """Runs boxes of particles and makes a table of the solids stress: what `polybed calibrate` hands over to."""
 
-import argparse
 import json
 import signal
 import time
 from pathlib import Path
 
+from polybed.arguments import parser_of, whole
 from polybed.calibration import bed, fit
 from polybed.calibration.boxes import Boxes, Plan, asked_of
 from polybed.calibration.check import deviation, deviation_lines, points_between
@@ -24,26 +24,15 @@ WORDS = {"phi": "solids fraction", "stokes": "Stokes number of the shear", "e": 
          "x2": "volume share of the second species"}
 
 
-def jobs(text):
-    count = int(text)
-    if not 1 <= count <= 1024:
-        raise argparse.ArgumentTypeError(f"{count} is not in range 1 to 1024")
-    return count
-
-
 def parsed(arguments):
-    parser = argparse.ArgumentParser(prog="polybed calibrate", allow_abbrev=False,
-                                     description="Runs boxes of particles and makes a table of the solids stress for the two-fluid model.")
-    parser.add_argument("case", metavar="CASE", help="the case file")
-    parser.add_argument("--set", metavar="KEY=VALUE", action="append", default=[], help="in place of what the file says")
+    parser = parser_of("calibrate", "Runs boxes of particles and makes a table of the solids stress for the two-fluid model.",
+                       "case", "--set", "--quiet", "--json")
     parser.add_argument("-o", "--output", metavar="DIR", type=Path, help="directory (default: runs/<case name>-calibrate)")
-    parser.add_argument("-j", "--jobs", type=jobs, default=1, help="boxes at once (default: 1)")
+    parser.add_argument("-j", "--jobs", type=whole(1, 1024), metavar="JOBS", default=1, help="boxes at once (default: 1)")
     only = parser.add_mutually_exclusive_group()
     only.add_argument("--plan", action="store_true", help="which boxes, and how long; nothing is run")
     only.add_argument("--check", metavar="TABLE", help="run a few points that it was not fitted to, and compare")
     parser.add_argument("--bed", metavar="TABLE", help="of fluidised boxes (regime bed): its p_bed is put beside what is sheared")
-    parser.add_argument("--quiet", action="store_true", help="no progress")
-    parser.add_argument("--json", action="store_true", help="one JSON object")
     options = parser.parse_args(arguments)
     options.output = options.output or Path("runs") / f"{name_of(options.case)}-calibrate"
     options.on_ranks = ranks() > 1

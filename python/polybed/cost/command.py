@@ -1,9 +1,9 @@
 """The command line of polybed cost."""
 
-import argparse
 import re
 from pathlib import Path
 
+from polybed.arguments import parser_of
 from polybed.cost import attribution, front
 from polybed.cost.axes import MAKERS, MODEL, NUMERICS
 from polybed.cost.check import check_recommendation
@@ -44,14 +44,11 @@ def listed(text):
 
 
 def parser():
-    options = argparse.ArgumentParser(prog="polybed cost", allow_abbrev=False,
-                                      description="Runs a case at several settings, measures how far each is from a reference and what "
-                                                  "it costs, and recommends the cheapest within an error.")
+    options = parser_of("cost", "Runs a case at several settings, measures how far each is from a reference and what it costs, and recommends "
+                        "the cheapest within an error.", "--set", "--until", "--quiet", "--json", "--no-picture")
     options.add_argument("words", nargs="+", metavar="WORDS",
                          help="CASE: the study; check DIR: run its recommendation again")
-    options.add_argument("--set", action="append", default=[], metavar="KEY=VALUE", help="in place of what the file says")
     options.add_argument("-o", "--output", type=Path, help="folder; default runs/<case name>-cost")
-    options.add_argument("--until", help='simulated time, e.g. "20 s"')
     options.add_argument("--model", choices=("tfm", "dem"), help="default: tfm where it runs the case")
     options.add_argument("--qoi", type=listed, default=[],
                          help="measured quantities, separated by commas; the first decides (default: bed_height)")
@@ -64,9 +61,6 @@ def parser():
     options.add_argument("--reference", default="auto", help="auto, exact (force balance, one species), or the directory of a run")
     options.add_argument("--resume", action="store_true", help="go on with the runs in the folder")
     options.add_argument("--force", action="store_true", help="replace a study that exists")
-    options.add_argument("--quiet", action="store_true", help="no progress")
-    options.add_argument("--json", action="store_true", help="cost.json on standard output")
-    options.add_argument("--no-picture", dest="picture", action="store_false", help="no cost.png, cost.svg and cost.html")
     return options
 
 

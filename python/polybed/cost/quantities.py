@@ -27,15 +27,11 @@ class RunQuantities:
 
 
 def quantities_of(species):
-    def measure(name, unit, scale, row=None):
-        return QuantityInfo(name, unit, HELP[row or name], scale)
-
-    found = [measure("bed_height", "m", LENGTH), *(measure(f"centre_{name}", "m", LENGTH, "centre_<name>") for name in species),
-             QuantityInfo("pressure_drop", "1", "over the buoyant weight", SHARE)]
-    if len(species) > 1:
-        found += [measure("centre_difference", "1", SHARE), measure("mixing", "1", SHARE), measure("interface", "m", LENGTH),
-                  measure("composition", "1", SHARE)]
-    return [*found, measure("profile", "1", SHARE)]
+    several = [("centre_difference", "1", SHARE), ("mixing", "1", SHARE), ("interface", "m", LENGTH), ("composition", "1", SHARE)]
+    rows = [("bed_height", "m", LENGTH), *((f"centre_{name}", "m", LENGTH) for name in species), ("pressure_drop", "1", SHARE),
+            *(several if len(species) > 1 else []), ("profile", "1", SHARE)]
+    words = HELP | {f"centre_{name}": HELP["centre_<name>"] for name in species} | {"pressure_drop": "over the buoyant weight"}
+    return [QuantityInfo(name, unit, words[name], scale) for name, unit, scale in rows]
 
 
 def quantities_of_run(run, begin, slabs):

@@ -16,6 +16,7 @@ from polybed.drawing.fields import fractions
 from polybed.drawing.history import key
 from polybed.drawing.inversion_scan import commands as scan_command
 from polybed.drawing.inversion_scan import on_ranks
+from polybed.drawing.inversion_scan import tables as scan_tables
 from polybed.drawing.maps import axes_at, draw_bar, draw_map, frame, map_size
 from polybed.drawing.profiles import shown_top
 from polybed.drawing.style import COLOURS, NAMES, PALE, drop_over_weight, length_unit
@@ -203,21 +204,6 @@ def scores(found):
             + ("; inversion velocity from " + file_name(found["inversion_file"]) if "inversion_file" in found else ""))
 
 
-def inversion(scan, path):
-    """What the scan has found of the inversion velocity itself, which the score u_inv is the quotient of."""
-    def in_mm(metres):
-        return None if metres is None else 1e3 * metres
-
-    rows = [[NAMES[model], with_error(in_mm(of["velocity_m_s"]), in_mm(of["error_m_s"])),
-             f"{with_error(in_mm(of['low_m_s']))} to {with_error(in_mm(of['high_m_s']))}", of["outcome"],
-             str(len(of["runs"])), with_error(of["cpu_s"])] for model, of in scan["models"].items()]
-    text = table(["", "mm/s", "between, mm/s", "ended by", "runs", "CPU s"], rows) + source(
-        file_name(path) + f" (commit {scan['git_commit']})")
-    made = [[NAMES[model], with_error(in_mm(run["velocity_m_s"])), with_error(run["centre_difference"], run["error"]), folder_of(run)]
-            for model, of in scan["models"].items() for run in of["runs"] if "git_commit" in run]
-    return text + (table(["its runs", "mm/s", "distance of the centres over the bed height", "from history.csv of"], made) if made else Html())
-
-
 def models(found):
     rows = [[NAMES[model], run["state"], with_error(run["time_s"]), with_error(run["cpu_s"]), with_error(run["wall_s"]),
              ", ".join(f"{name} {value:.4g}" for name, value in run["work"].items()),
@@ -254,7 +240,8 @@ def text_of(found, path):
                      "with the runs that are there, it does")
     again = listing(commands(found, records, scan)) + source("all numbers: " + file_name(path) + f"; program of commit {found['git_commit']}")
     body = [section("measures", "Both models", measures(found)), section("scores", "Scores", scores(found)),
-            section("inversion", "Inversion velocity", inversion(scan, scan_path) if scan else ""),
+            section("inversion", "Inversion velocity", Html().join(scan_tables(scan)) + source(
+                file_name(scan_path) + f" (commit {scan['git_commit']})") if scan else ""),
             section("pictures", "Pictures", pictures(found, runs)), section("cost", "Cost", models(found)), warnings(lines),
             section("commands", "How to make it again", again)]
     title = title_of_case(records["tfm"]) or title_of_case(records["dem"]) or found["case"]

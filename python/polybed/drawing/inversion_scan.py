@@ -87,19 +87,24 @@ def title_of(found):
     return found["case"]
 
 
+def tables(found):
+    """What the scan of each model has found, and its runs."""
+    first, second = found["species"]
+    rows = [velocity_row(model, of) for model, of in found["models"].items()]
+    if balance := found["force_balance"]:
+        rows.append(["force balance, without a run", text(balance["velocity_m_s"], "m/s"), "", "", "", ""])
+    made = [[NAMES[model], text(run["velocity_m_s"], "m/s"), f"{run['centre_difference']:.3g} \u00b1 {run['error']:.1g}",
+             file_name(run["directory"]) + (f" (commit {run['git_commit']})" if "git_commit" in run else "")]
+            for model, of in found["models"].items() for run in of["runs"]]
+    return (table(["", "superficial velocity", "between", "ended because", "runs", "computing"], rows) + source(
+        f"The velocity at which {first} and {second} change places."),
+        table(["", "velocity", f"centre of {second} less that of {first}, over the bed height", "run"], made))
+
+
 def text_of(found, path):
     drawn = shown_picture(draw(found), "means over the last part of each run, with their 95 % intervals; " + file_name(path),
                           "distance of the centres over the velocity")
-    first, second = found["species"]
-    rows = [velocity_row(model, of) for model, of in found["models"].items()]
-    balance = found["force_balance"]
-    if balance:
-        rows.append(["force balance, without a run", text(balance["velocity_m_s"], "m/s"), "", "", "", ""])
-    made = [[NAMES[model], text(run["velocity_m_s"], "m/s"), f"{run['centre_difference']:.3g} \u00b1 {run['error']:.1g}",
-             file_name(run["directory"])] for model, of in found["models"].items() for run in of["runs"]]
-    body = [section("found", "Inversion velocity", table(["", "superficial velocity", "between", "ended because", "runs", "computing"], rows) + source(
-        f"The velocity at which {first} and {second} change places.")),
-        section("picture", "Runs", drawn + table(["", "velocity", f"centre of {second} less that of {first}, over the bed height", "run"], made)),
-        section("commands", "How to make it again",
-                listing(shlex.join(commands(found))) if "scan" in found else "")]
+    velocities, runs = tables(found)
+    body = [section("found", "Inversion velocity", velocities), section("picture", "Runs", drawn + runs),
+            section("commands", "How to make it again", listing(shlex.join(commands(found))) if "scan" in found else "")]
     return page(title_of(found), "inversion velocity by runs \u00b7 " + file_name(found["case"]), Html().join(body))

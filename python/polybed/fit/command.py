@@ -1,12 +1,12 @@
 """The command line of polybed fit, and what it writes: law.json, fit.json, accuracy.md, errors.csv and fit.png."""
 
-import argparse
 import json
 import time
 from pathlib import Path
 
 import numpy as np
 
+from polybed.arguments import parser_of, whole
 from polybed.fit import errors
 from polybed.fit.fitting import Problem
 from polybed.fit.page import COLUMNS, page, write_errors
@@ -21,19 +21,8 @@ INTERVAL = (2.5, 97.5)  # per cent of the draws
 FORM_OFF = 1e-9  # of the force, between this package and the program: rounding
 
 
-def whole(low, high):
-    def read(text):
-        number = int(text)
-        if not low <= number <= high:
-            raise argparse.ArgumentTypeError(f"{number} is not in the range {low} to {high}")
-        return number
-    read.__name__ = "whole number"
-    return read
-
-
 def parser():
-    options = argparse.ArgumentParser(prog="polybed fit", allow_abbrev=False,
-                                      description="Fits the constants of a drag law to rows of resolved flow, and writes a law file.")
+    options = parser_of("fit", "Fits the constants of a drag law to rows of resolved flow, and writes a law file.", "--quiet", "--json", "--no-picture")
     options.add_argument("rows", nargs="+", metavar="ROWS", type=Path,
                          help="tables of polybed resolve or of tests/data/lbm; of a folder its tab_A_*.csv")
     options.add_argument("--form", choices=("cello", "brinkman_oseen"), default="brinkman_oseen")
@@ -41,9 +30,6 @@ def parser():
     options.add_argument("--bootstrap", type=whole(0, 10000), default=100, metavar="N", help="draws for the intervals (default: 100)")
     options.add_argument("--seed", type=whole(0, 2**63 - 1), default=1, help="of the draws")
     options.add_argument("--force", action="store_true", help="replace a fit that is in the folder")
-    options.add_argument("--no-picture", dest="picture", action="store_false", help="no fit.png")
-    options.add_argument("--quiet", action="store_true", help="no progress")
-    options.add_argument("--json", action="store_true", help="fit.json on standard output")
     return options
 
 

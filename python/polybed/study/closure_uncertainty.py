@@ -70,16 +70,11 @@ class Bed:
         return f'effects.drag="{write_moved(self.law, math.exp(common), tilt, path)}"'
 
 
-def moved_by(base, values):
-    """How far an answer falls and rises by the moves of one direction, both at least 0."""
-    return base - min(base, *values), max(base, *values) - base
-
-
 def summary(base, found, both):
     """The band of one number. found: {direction: (minus, plus)}; both: with all directions at plus one band, None if not found"""
     if base is None or any(value is None for pair in found.values() for value in pair):
         return {"value": base, "low": None, "high": None}
-    down, up = (math.sqrt(sum(moved_by(base, pair)[n] ** 2 for pair in found.values())) for n in (0, 1))
+    down, up = (math.hypot(*(end(base, *pair) - base for pair in found.values())) for end in (min, max))
     linear = base + sum((plus - minus) / 2 for minus, plus in found.values())
     return {"value": base, "low": base - down, "high": base + up,
             "by": {name: {"minus": minus, "plus": plus} for name, (minus, plus) in found.items()},
@@ -120,12 +115,12 @@ def inversion_band(request, bed):
     both = at({name: 1 for name in directions})
     record = base_record(request, bed, directions) | {"method": request["method"]}
     for key in ("velocity_m_s", "voidage"):
-        def of(root, key=key):
-            return root and root[key]
-        record[key] = summary(base[key], {name: tuple(map(of, pair)) for name, pair in pairs.items()}, of(both))
+        def of(*roots, key=key):
+            return tuple(root and root[key] for root in roots)
+        record[key] = summary(base[key], {name: of(*pair) for name, pair in pairs.items()}, *of(both))
         if all(root for pair in steps.values() for root in pair):
             slopes = {name: (plus[key] - minus[key]) / (2 * SMALL) for name, (minus, plus) in steps.items()}
-            record[key]["linear_half_width"] = math.sqrt(sum(slope**2 for slope in slopes.values()))
+            record[key]["linear_half_width"] = math.hypot(*slopes.values())
     return record, plain
 
 

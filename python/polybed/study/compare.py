@@ -1,10 +1,10 @@
 """Both models on one case, or two runs of it, measured over the same window: what `polybed compare` hands over to."""
 
-import argparse
 import os
 import shlex
 from pathlib import Path
 
+from polybed.arguments import parser_of
 from polybed.drawing.units import duration
 from polybed.files import contents_of, read_json
 from polybed.folder import read_record
@@ -123,20 +123,13 @@ def make(options):
 
 
 def parsed(arguments):
-    parser = argparse.ArgumentParser(prog="polybed compare", allow_abbrev=False,
-                                     description="Runs the case by both models, or takes runs of it: how far they agree.")
-    parser.add_argument("case", metavar="CASE", help="the case file")
-    parser.add_argument("--set", action="append", default=[], metavar="KEY=VALUE", help="in place of what the file says")
-    parser.add_argument("--json", action="store_true", help="one JSON object on standard output, nothing else there")
+    parser = parser_of("compare", "Runs the case by both models, or takes runs of it: how far they agree.",
+                       "case", "--set", "--until", "--quiet", "--json", "--no-picture")
     parser.add_argument("-o", "--output", metavar="DIR", help="run directory; default runs/<case name>-compare")
-    parser.add_argument("--until", metavar="TIME", help='simulated time, e.g. "20 s"')
     parser.add_argument("--resume", action="store_true", help="go on from the checkpoint in the run directory")
     parser.add_argument("--force", action="store_true", help="replace the run in the run directory")
     parser.add_argument("--permissive", action="store_true",
                         help="go on where a conservation law is broken more than tenfold, which ends a run otherwise")
-    parser.add_argument("--quiet", action="store_true", help="no progress")
-    parser.add_argument("--no-picture", dest="picture", action="store_false",
-                        help="no picture.png and comparison.html at the end, which take a second")
     parser.add_argument("--tfm", metavar="DIR", help="directory of a run of polybed tfm, finished or not")
     parser.add_argument("--dem", metavar="DIR", help="directory of a run of polybed dem, finished or not")
     parser.add_argument("--inversion", metavar="DIR", help="folder of polybed inversion --scan both; default that of the case in runs/")

@@ -1,11 +1,11 @@
 """Runs the entries of cases/validation and compares them with what was measured: `polybed validate`."""
 
-import argparse
 import datetime
 import math
 import shlex
 from pathlib import Path
 
+from polybed.arguments import parser_of, whole
 from polybed.drawing.units import duration
 from polybed.ending import DONE, FILE, NUMBERS, WRONG_CASE, StudyError, answer, guarded
 from polybed.folder import read_record
@@ -152,8 +152,6 @@ def validate(options):
     known = {of.name for entry, _ in pairs for of in entry.runs}
     if unknown := set(options.run) - known:
         raise StudyError(WRONG_CASE, f"there is no run {min(unknown)!r}; there are {', '.join(sorted(known))}")
-    if options.seeds is not None and options.seeds < 1:
-        raise StudyError(WRONG_CASE, "--seeds is 1 or more")
     if not pairs:
         raise StudyError(WRONG_CASE, "no entry is left to run: polybed validate --list shows all")
     commit = commit_and_build()[0]
@@ -172,20 +170,17 @@ def validate(options):
 
 
 def parsed(arguments):
-    parser = argparse.ArgumentParser(prog="polybed validate", allow_abbrev=False,
-                                     description="Compares the models with beds that were measured: runs, verdicts, a page.")
+    parser = parser_of("validate", "Compares the models with beds that were measured: runs, verdicts, a page.", "--quiet", "--json")
     parser.add_argument("names", nargs="*", metavar="NAME", help="an entry: a folder of cases/validation; default all that are quick")
     parser.add_argument("--list", action="store_true", help="what held when results were last recorded, and what each entry takes")
     parser.add_argument("--model", choices=MODELS, help="only this model; balance: the force balance, without a run")
     parser.add_argument("--run", action="append", default=[], metavar="NAME", help="only this run of an entry; several: once each")
-    parser.add_argument("--seeds", type=int, metavar="N", help="of runs that are repeated with drawn inputs: the first N; default all")
+    parser.add_argument("--seeds", type=whole(1, 10000), metavar="N", help="of runs that are repeated with drawn inputs: the first N; default all")
     parser.add_argument("--at-most", type=float, default=AT_MOST, metavar="SECONDS",
                         help="CPU seconds of an entry that is not named; default %(default)g")
     parser.add_argument("--record", action="store_true", help="keep the results: recorded.json and docs/record/validation.md")
     parser.add_argument("-o", "--output", default="runs/validation", metavar="DIR", help="folder of runs and page; default %(default)s")
     parser.add_argument("--force", action="store_true", help="run again what is finished")
-    parser.add_argument("--json", action="store_true", help="one JSON object on standard output, nothing else there")
-    parser.add_argument("--quiet", action="store_true", help="no progress")
     return parser.parse_args(arguments)
 
 
