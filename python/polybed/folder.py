@@ -1,8 +1,9 @@
-"""The folder of a run, which may be replaced by another run while somebody reads it."""
+"""The folder of a run, which may be replaced by another run while somebody reads it, and what its run.json says of the case."""
 
+import tomllib
 from pathlib import Path
 
-from polybed.files import ReplacedError, contents_of, read_json
+from polybed.files import DamagedError, ReplacedError, contents_of, read_json
 
 # Any of them makes a run directory; an empty one is that of a run that starts.
 CONTENTS = {".polybed", "run.json", "history.csv", "fields.h5", "profiles.h5", "particles.h5"}
@@ -59,3 +60,39 @@ def read_record(path):
                 if not isinstance(entry[key], kind):
                     raise TypeError(f"{key} of an invariant is {entry[key]!r}")
     return record
+
+
+def case_of(record):
+    """The resolved case of a record as a dictionary; empty if it has none. Raises DamagedError."""
+    try:
+        return tomllib.loads(record.get("case") or "")
+    except (tomllib.TOMLDecodeError, TypeError, AttributeError) as error:
+        raise DamagedError("the case in run.json", error) from error
+
+
+def drift_lines(record):
+    """What a run still drifts by at its end, a line each: the slope is certain, and matters (docs/reference/measures.md)."""
+    try:
+        return list(record.get("drift", {}).get("lines", []))
+    except (AttributeError, TypeError) as error:
+        raise DamagedError("the drift in run.json", error) from error
+
+
+def title_of_case(record):
+    """The title that the case gives itself; empty without one, or where the case cannot be read."""
+    try:
+        title = case_of(record).get("title", "")
+    except DamagedError:
+        return ""
+    return title if isinstance(title, str) else ""
+
+
+def velocity_of(case):
+    """The last superficial velocity of the inlet, m/s; None without one, and of several side by side."""
+    rows = case.get("inlet", {}).get("superficial_velocity")
+    if isinstance(rows, (int, float)):
+        return float(rows)
+    try:
+        return float(rows[-1][1])
+    except (TypeError, IndexError, ValueError):
+        return None

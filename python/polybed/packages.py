@@ -15,21 +15,15 @@ def plain(text):
     return CONTROL.sub(lambda found: f"\\u{ord(found[0]):04x}", text)
 
 
-def print_plain():
-    """Makes all plain that this process prints from now on."""
-    for stream in (sys.stdout, sys.stderr):
-        if stream is not None and "write" not in vars(stream):
-            stream.write = lambda text, write=stream.write: write(plain(text))
-
-
 @contextlib.contextmanager
 def needed(of_program):
     """Around imports: tells in a line which package the interpreter lacks, and what to do.
 
     of_program: whether the imports are those of `python3 -m polybed.MODULE`, which ends there; else ImportError is raised.
     """
-    if of_program:
-        print_plain()
+    for stream in (sys.stdout, sys.stderr) if of_program else ():  # all is plain that this process prints from now on
+        if stream is not None and "write" not in vars(stream):
+            stream.write = lambda text, write=stream.write: write(plain(text))
     try:
         yield
     except ImportError as missing:

@@ -73,11 +73,6 @@ def section(name, title, body):
     return markup('<section id="{}"><h2>{}</h2>{}</section>', name, title, body) if body else Html()
 
 
-def folded(title, body):
-    """What is shown when somebody opens it."""
-    return markup("<details><summary>{}</summary>{}</details>", title, body)
-
-
 def picture(figure, told, alternative=""):
     """A figure of matplotlib in the page itself, with what it was drawn from; nothing for no figure."""
     if figure is None:

@@ -27,12 +27,12 @@ class ParticleStep:
 
     def __init__(self, particles, number):
         self.time, self.count = particles.time[number], particles.count[number]
-        self._particles, self._number = particles, number
+        self._particles, self._file = particles, particles.folder.file("particles", f"{number + 1:06d}.h5")
 
     def __getattr__(self, name):
         if name not in self.NAMES:
             raise AttributeError(f"particles have no '{name}'; they have {', '.join(self.NAMES)}")
-        with self._particles.open_step(self._number) as file:
+        with open_hdf5(self._file, "polybed particles step") as file:
             values = fits(file["step"][name][...], (self.count, *([3] if name in self.VECTORS else [])), name)
             self._check(name, values)
         self.__dict__[name] = values
@@ -68,7 +68,7 @@ class Particles:
     """The particles of a run over all stored steps: particles[-1] is the last one. Empty if none are stored."""
 
     def __init__(self, folder):
-        self._folder = folder
+        self.folder = folder
         self.time, self.count = np.empty(0), np.empty(0, dtype=int)  # of each step: s, and how many there are
         self.species = []  # names
         self.size, self.periodic = np.zeros(3), np.zeros(3, dtype=bool)  # of the column along x, y, z, m
@@ -92,15 +92,11 @@ class Particles:
         if isinstance(step, slice):
             return [self[n] for n in range(*step.indices(len(self)))]
         if not -len(self) <= step < len(self):
-            raise IndexError(f"{self._folder.path} has {len(self)} steps of particles, none numbered {step}")
+            raise IndexError(f"{self.folder.path} has {len(self)} steps of particles, none numbered {step}")
         return ParticleStep(self, step % len(self))
-
-    def open_step(self, step):
-        """The file of a stored step, by its number."""
-        return open_hdf5(self._folder.file("particles", f"{step + 1:06d}.h5"), "polybed particles step")
 
     def step_at(self, time):
         """Number of the stored step nearest to a time."""
         if len(self) == 0:
-            raise IndexError(f"{self._folder.path} has no stored particles yet")
+            raise IndexError(f"{self.folder.path} has no stored particles yet")
         return nearest(self.time, time)

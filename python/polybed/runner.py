@@ -76,13 +76,10 @@ def ranks() -> int:
     return int(next((os.environ[name] for name in RANKS if name in os.environ), 1))
 
 
-def left_by_launcher(name: str) -> bool:
-    return name.startswith(OF_LAUNCHER) and (not name.startswith(OF_USER) or name.startswith(NOT_OF_USER))
-
-
 def environment() -> dict[str, str]:
     """That of a child: without what a launcher says of this process, which is none of the child's ranks."""
-    kept = {name: value for name, value in os.environ.items() if not left_by_launcher(name)}
+    kept = {name: value for name, value in os.environ.items() if not name.startswith(OF_LAUNCHER)
+            or name.startswith(OF_USER) and not name.startswith(NOT_OF_USER)}
     return kept | {"PATH": search_path()}
 
 

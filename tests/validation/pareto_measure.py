@@ -1,7 +1,7 @@
 """What a finished run of pareto_b.py says: means over the last quarter with their intervals, and what it took."""
 import numpy as np
 
-from polybed.cost.work import counters_of, weighed
+from polybed.cost.runner import counters_of, weighed
 
 STUDENT = 2.262  # 95 %, nine degrees of freedom
 FIRST, SECOND = "fine", "coarse"

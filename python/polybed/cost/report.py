@@ -5,7 +5,7 @@ from math import isfinite
 
 from polybed.cost.judge import level_of, scale_of
 from polybed.cost.words import CLOCKS, REFERENCE, STATUS, in_words, part, percent
-from polybed.cost.work import VERSION, weighed
+from polybed.cost.runner import VERSION, weighed
 from polybed.drawing.units import text
 from polybed.files import put_text
 from polybed.program import name_of

@@ -39,15 +39,8 @@ def has_ffmpeg():
     return found_program("ffmpeg") is not None
 
 
-def particle_frames(run):
-    """The figure, the number of frames, and what draws the frame of that number."""
-    digits = digits_of(run.particles.time)
-    views = views_of(run, range(len(run.particles)))
-    return views.figure, len(run.particles), lambda step: views.show(step, digits)
-
-
 def field_frames(run):
-    """The same of the volume fractions of the species and of the fluid."""
+    """The volume fractions of the species and of the fluid: the figure, and what draws the frame of a number."""
     steps, digits = range(len(run.time)), digits_of(run.time)
     most = greatest_fraction(run, steps)
     maps = [(name, in_plane(run.field(f"phi_{name}")[0])) for name in run.species]
@@ -65,7 +58,7 @@ def field_frames(run):
             mesh.set_array(as_shown(run, in_plane(run.field(name)[step])).ravel())
         title.set_text(fitted(title_of(run, run.time[step], maps=True, digits=digits), figure, 10))
 
-    return figure, len(run.time), show
+    return figure, show
 
 
 def film(run, path, rate=None, progress=None):
@@ -73,7 +66,11 @@ def film(run, path, rate=None, progress=None):
 
     progress: called with the number of frames done and in all.
     """
-    figure, count, show = particle_frames(run) if len(run.particles) else field_frames(run)
+    if count := len(run.particles):
+        views, digits = views_of(run, range(count)), digits_of(run.particles.time)
+        figure, show = views.figure, lambda step: views.show(step, digits)
+    else:
+        (figure, show), count = field_frames(run), len(run.time)
     found = {"animation.ffmpeg_path": found_program("ffmpeg") or "ffmpeg"}
     # The writer knows the kind of film by the ending.
     try:

@@ -23,7 +23,7 @@ from polybed.drawing.style import COLOURS, NAMES, PALE, drop_over_weight, length
 from polybed.files import read_json
 from polybed.page import Html, file_name, listing, markup, page, picture, section, source, table, warnings
 from polybed.read import nearest, read, stored_times
-from polybed.record import title_of_case
+from polybed.folder import title_of_case
 from polybed.runner import words_of
 from polybed.study.compare_report import measure_cells, with_error
 

@@ -9,7 +9,7 @@ from polybed.cost.words import AXES, CLOCKS
 from polybed.drawing.style import COLOURS, GREY, NAMES, PALE, fitted, shortened
 from polybed.page import Html, file_name, listing, markup, page, picture, section, source, table, warnings
 from polybed.program import name_of
-from polybed.record import title_of_case
+from polybed.folder import title_of_case
 from polybed.runner import words_of
 
 MARKS = ["o", "s", "^", "D", "v", "P"]

@@ -12,7 +12,7 @@ import numpy as np
 
 from polybed.drawing.style import COLOURS, GREY, NAMES, PALE
 from polybed.read import read
-from polybed.record import title_of_case
+from polybed.folder import title_of_case
 from polybed.runner import words_of
 from polybed.study.inversion_search import known
 

@@ -7,7 +7,7 @@ import numpy as np
 
 from polybed.drawing.style import EMPTY, around_axis, as_shown, faces_across, fitted, length_unit, width_of
 from polybed.files import DamagedError
-from polybed.record import case_of
+from polybed.folder import case_of
 
 HEIGHT, HEIGHT_IN_ROWS = 5.0, 3.4  # inches, the most, of maps in one row and in several
 WIDEST = 12.0  # inches, a row of maps
@@ -23,11 +23,6 @@ class Group:
     colours: str
     limits: tuple
     maps: list = field(default_factory=list)  # (title, values [y][x])
-
-    def mapping(self):
-        colours = plt.get_cmap(self.colours).copy()
-        colours.set_bad(EMPTY)
-        return {"cmap": colours, "vmin": self.limits[0], "vmax": self.limits[1]}
 
 
 def map_size(run, top, most, widths=WIDTHS):
@@ -85,7 +80,9 @@ def frame(axes, run, title, top, first):
 def draw_map(axes, run, group, title, values, top, first):
     """One map in the unit of the run, and its mesh."""
     factor = length_unit(run)[0]
-    mesh = axes.pcolormesh(faces_across(run) * factor, run.faces["y"] * factor, as_shown(run, values), rasterized=True, **group.mapping())
+    colours = plt.get_cmap(group.colours).with_extremes(bad=EMPTY)
+    mesh = axes.pcolormesh(faces_across(run) * factor, run.faces["y"] * factor, as_shown(run, values), rasterized=True, cmap=colours,
+                           vmin=group.limits[0], vmax=group.limits[1])
     frame(axes, run, title, top, first)
     return mesh
 

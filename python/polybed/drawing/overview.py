@@ -67,21 +67,19 @@ def draw_fields(run, step, maps, bars, top):
         draw_scale(bars[n], mesh, group.limits, [f"{limit:.2g}" for limit in group.limits], group.label, fontsize=8, labelpad=1)
 
 
-def draw_particles(run, step, maps, bars, top):
-    particles.Views(run, [step], maps, bars, top).show(step)
-
-
 def draw(run, step):
     """The figure of a run at a stored step: of particles where there are some, else of fields."""
-    if len(run.particles):
-        time, top, count, draw_bed = run.particles.time[step], particles.shown_top(run, [step]), 2, draw_particles
+    of_particles = len(run.particles) > 0
+    time = (run.particles if of_particles else run).time[step]
+    top = particles.shown_top(run, [step]) if of_particles else shown_height(run, [step])
+    size = map_size(run, top, MAP_HEIGHT, MAP_WIDTHS)
+    figure, maps, bars, profile, history = layout_of(2 if of_particles else len(run.kinds) + 1, size)
+    if of_particles:
+        particles.Views(run, [step], maps, bars, top).show(step)
     else:
-        time, top, count, draw_bed = run.time[step], shown_height(run, [step]), len(run.kinds) + 1, draw_fields
-    figure, maps, bars, profile, history = layout_of(count, map_size(run, top, MAP_HEIGHT, MAP_WIDTHS))
-    draw_bed(run, step, maps, bars, top)
+        draw_fields(run, step, maps, bars, top)
     draw_profiles(profile, run, time)
     profile.set_ylim(0, top * length_unit(run)[0])
     draw_history(history, run, time)
-    title = title_of(run, time, maps=draw_bed is draw_fields)
-    figure.suptitle(fitted(title, figure, 11), y=1 - 0.22 / figure.get_figheight(), fontsize=11)
+    figure.suptitle(fitted(title_of(run, time, maps=not of_particles), figure, 11), y=1 - 0.22 / figure.get_figheight(), fontsize=11)
     return figure

@@ -85,10 +85,6 @@ def fastest(steps):
     return end, any(greatest > end * (1 + 1e-9) for _, greatest in ends)
 
 
-def speed_colours(step, end):
-    return plt.get_cmap("viridis")(np.clip(speed(step) / end, 0, 1))
-
-
 def name_species(axes, run):
     dots = [Line2D([], [], linestyle="", marker="o", color=COLOURS[n % len(COLOURS)], label=name)
             for n, name in enumerate(run.kinds)]
@@ -122,7 +118,7 @@ class Views:
         for collection in self.drawn:
             collection.remove()
         step = self.run.particles[number]
-        colours = species_colours(self.run, step), speed_colours(step, self.end)
+        colours = species_colours(self.run, step), plt.get_cmap("viridis")(np.clip(speed(step) / self.end, 0, 1))
         self.drawn = [circles(axes, self.run, step, of) for axes, of in zip(self.axes, colours)]
         self.note.set_text(thinned(self.run, step))
         if self.title:

@@ -13,7 +13,7 @@ import numpy as np
 
 from polybed.files import DamagedError
 from polybed.quantities import LEVELS
-from polybed.record import case_of, title_of_case
+from polybed.folder import case_of, title_of_case
 
 COLOURS = ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9"]
 NAMES = {"tfm": "two-fluid", "dem": "particles"}  # of the models, beside each other
@@ -115,12 +115,6 @@ def greatest_fraction(run, steps):
     return max([0.1] + [float(run.field(f"phi_{name}")[step].max()) for name in run.species for step in steps])
 
 
-def state_of(run):
-    """The state of an unfinished run for the title; empty for a finished one."""
-    state = run.record.get("state", "")
-    return "" if state in ("", "done") else state.split(":")[0]
-
-
 def shortened(text):
     """A title that fits above a picture, as plain text: nothing in it is read as mathematics."""
     plain = " ".join(text.split()).replace("$", r"\$")
@@ -140,7 +134,9 @@ def fitted(title, figure, size):
 def title_of(run, time=None, maps=False, digits=".4g"):
     """What a picture shows, in one line; maps of a 3-D run are marked as one plane of it."""
     model = {"tfm": "two-fluid model", "dem": "discrete particles"}.get(run.record.get("model"), "")
-    parts = [shortened(title_of_case(run.record) or run.directory.resolve().name), model, "" if time is None else f"t = {time:{digits}} s", state_of(run)]
+    state = run.record.get("state", "done")
+    parts = [shortened(title_of_case(run.record) or run.directory.resolve().name), model, "" if time is None else f"t = {time:{digits}} s",
+             "" if state == "done" else state.split(":")[0]]
     if maps and run.dimensions == 3:
         parts.append("plane at half depth")
     return "   ".join(part for part in parts if part)

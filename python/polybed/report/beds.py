@@ -8,7 +8,7 @@ from polybed.drawing.style import COLOURS, FEW_SOLIDS, around_axis, as_shown, fa
 from polybed.drawing.units import fitting
 from polybed.particles import step_shown
 from polybed.read import kinds_among
-from polybed.record import case_of
+from polybed.folder import case_of
 from polybed.report.pack import EMPTY, changes, levels, packed, plain_numbers, thinned
 
 MOST_CELLS = 40_000  # of one map; a finer one is averaged

@@ -11,7 +11,7 @@ from polybed.drawing.units import text
 from polybed.ending import made
 from polybed.files import contents_of, in_place
 from polybed.read import Snapshot
-from polybed.record import case_of, title_of_case
+from polybed.folder import case_of, title_of_case
 from polybed.report import sections
 from polybed.report.beds import maps_of, particles_of
 from polybed.report.sections import card_of

@@ -8,8 +8,8 @@ from collections import Counter
 
 from polybed.drawing.units import text
 from polybed.files import finite, whole_lines
-from polybed.page import Html, folded, listing, markup, source, table
-from polybed.record import case_of, velocity_of
+from polybed.page import Html, listing, markup, source, table
+from polybed.folder import case_of, velocity_of
 
 MOST_LIMITS = 8
 MODELS = {"tfm": "two-fluid model", "dem": "particles, one by one"}
@@ -109,7 +109,8 @@ def effects(record, case):
 def the_case(record):
     overrides = record.get("overrides") or []
     told = source("with " + Html(", ").join(markup("<code>--set {}</code>", shlex.quote(o)) for o in overrides)) if overrides else Html()
-    return told + folded("all keys, in SI units, as polybed reads them", listing(record.get("case") or "")) if record.get("case") else ""
+    return told + markup(
+        "<details><summary>all keys, in SI units, as polybed reads them</summary>{}</details>", listing(record["case"])) if record.get("case") else ""
 
 
 def cite(record, case):

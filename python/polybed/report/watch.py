@@ -19,7 +19,7 @@ from polybed.ending import DONE, guarded
 from polybed.files import FAULTS, contents_of, opened
 from polybed.page import markup, section
 from polybed.read import Snapshot
-from polybed.record import case_of
+from polybed.folder import case_of
 from polybed.report import sections
 from polybed.report.build import drawn, embedded, page_of, parts, told, under, write
 from polybed.study.output import writes

@@ -2,6 +2,7 @@
 
 import tomllib
 
+from polybed.folder import velocity_of
 from polybed.overrides import keys_of_case, toml
 from polybed.runner import answer_of, words_of
 
@@ -23,8 +24,7 @@ class Case:
     @property
     def velocity(self):
         """Superficial velocity at the end, m/s; None in a closed column."""
-        points = self.keys.get("inlet", {}).get("superficial_velocity")
-        return points[-1][1] if points else None
+        return velocity_of(self.keys)
 
     @property
     def species(self):

@@ -7,9 +7,8 @@ from pathlib import Path
 from polybed.arguments import parser_of
 from polybed.drawing.units import duration
 from polybed.files import contents_of, read_json
-from polybed.folder import read_record
+from polybed.folder import drift_lines, read_record
 from polybed.program import name_of
-from polybed.record import drift_lines
 from polybed.study import compare_report as report
 from polybed.study.cases import Case, differences, roles_in_both_models
 from polybed.ending import DONE, FILE, WRONG_CASE, StudyError, answer, guarded

@@ -65,16 +65,12 @@ def measure_cells(name, measure):
     return [measure_words(name) + (f" ({unit})" if unit else ""), *((scaled[what], scaled[f"{what}_error"]) for what in (*MODELS, "difference"))]
 
 
-def measure_line(name, measure):
-    title, *numbers = measure_cells(name, measure)
-    return " ".join([f"{title:30}", *(f"{with_error(*number):>20}" for number in numbers)])
-
-
 def table(record):
     window, order = record["window"], record["scores"]["order"]
+    cells = [measure_cells(name, measure) for name, measure in record["measures"].items()]
     lines = [f"means from {window['begin_s']:.4g} to {window['end_s']:.4g} s, \u00b1 95 %",
              f"{'':30} {'two-fluid (tfm)':>20} {'particles (dem)':>20} {'difference':>20}",
-             *(measure_line(name, measure) for name, measure in record["measures"].items())]
+             *(" ".join([f"{title:30}", *(f"{with_error(*number):>20}" for number in numbers)]) for title, *numbers in cells)]
     lines += [f"{'on top':30} {top_text(order['tfm']):>20} {top_text(order['dem']):>20}", "",
               "scores: 0 where the models agree (polybed explain e_H)"]
     lines += [score_line(name, score) for name, score in record["scores"].items() if name != "order"]

@@ -11,8 +11,7 @@ from contextlib import suppress
 from pathlib import Path
 
 from polybed.files import contents_of, read_bytes
-from polybed.folder import read_record
-from polybed.record import drift_lines
+from polybed.folder import drift_lines, read_record
 from polybed.study import inversion_report as report
 from polybed.study.cases import Case, hash_of
 from polybed.ending import DONE, WRONG_CASE, StudyError, answer, guarded

@@ -6,7 +6,7 @@ import numpy as np
 
 from polybed.quantities import measure_words
 from polybed.read import kinds_among
-from polybed.record import drift_lines
+from polybed.folder import drift_lines
 from polybed.study.measured import centre_column, means_of
 
 ENOUGH = 30  # autocorrelation times in a window

@@ -73,20 +73,19 @@ def of_run(options, entry, of, model):
             for compare in entry.compared(of)], {record["git_commit"] for record in records}
 
 
-def of_balance(entry, of):
-    """Rows that `polybed inversion` answers."""
-    return [row_of(entry, of, NO_RUN, compare,
-                   judged(measured_number(entry, of, compare), lambda: inversion_interval(inversion_of(entry, of))), None)
-            for compare in entry.compared(of)]
-
-
 def block_of(options, entry, model, commit):
     """All that a model gives for an entry, as it is recorded."""
     rows, commits = [], set()
     for of in entry.runs:
         if model not in of.models or options.run and of.name not in options.run:
             continue
-        found, made_by = (of_balance(entry, of), set()) if model == NO_RUN else of_run(options, entry, of, model)
+        if model == NO_RUN:  # `polybed inversion` answers
+            rows += [row_of(entry, of, model, compare, judged(measured_number(entry, of, compare),
+                                                              lambda: inversion_interval(inversion_of(entry, of))), None)
+                     for compare in entry.compared(of)]
+            commits.add(commit)
+            continue
+        found, made_by = of_run(options, entry, of, model)
         rows += found
         commits |= made_by or {commit}
     seconds = {row["run"]: row["cpu_s"] for row in rows}

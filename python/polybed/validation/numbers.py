@@ -11,7 +11,7 @@ import numpy as np
 from polybed.errors import PlainError
 from polybed.files import FormatError, contents_of, finite
 from polybed.read import read
-from polybed.record import case_of, drift_lines
+from polybed.folder import case_of, drift_lines
 from polybed.runner import answer_of, words_of
 from polybed.study.measured import means_of, statistics_of, within
 from polybed.validation.entries import chosen_rows, script_of

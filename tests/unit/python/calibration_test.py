@@ -21,8 +21,7 @@ sys.path.insert(0, PACKAGE)
 
 from polybed.calibration import bed, fit
 from polybed.calibration.boxes import MEANS, SINGLE, Boxes, Plan, Point, read_box
-from polybed.calibration.check import deviation, deviation_lines, points_between
-from polybed.calibration.text import box_lines
+from polybed.calibration.text import box_lines, deviation, deviation_lines, points_between
 from polybed.ending import NUMBERS, StudyError
 from polybed.errors import ProgramError
 from polybed.runner import asked, running

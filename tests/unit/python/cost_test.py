@@ -23,7 +23,7 @@ from polybed.cost.judge import carries  # noqa: E402
 from polybed.cost.report import advice, shares_json  # noqa: E402
 from polybed.cost.sweep import Share  # noqa: E402
 from polybed.cost.sweeper import is_chaotic  # noqa: E402
-from polybed.cost.work import counters_of, weighed  # noqa: E402
+from polybed.cost.runner import counters_of, weighed  # noqa: E402
 from polybed.ending import StudyError  # noqa: E402
 from polybed.runner import call  # noqa: E402
 from stored_run import Written  # noqa: E402

@@ -17,7 +17,7 @@ os.environ["POLYBED"] = PROGRAM
 
 from polybed import ending  # noqa: E402
 from polybed.quantities import Named  # noqa: E402
-from polybed.record import drift_lines  # noqa: E402
+from polybed.folder import drift_lines  # noqa: E402
 from polybed.runner import asked, run_within  # noqa: E402
 from polybed.study.output import subfolder, taken, writes  # noqa: E402
 from polybed.study.measured import Window, means_of, species_of, statistics_of, within  # noqa: E402
