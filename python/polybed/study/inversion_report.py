@@ -96,66 +96,57 @@ def line(name, velocity, source, run, reused):
     return f"{name:5} {1e3 * velocity:8.2f} {begun:>10} {mean:>20} {height:>16} {run['cpu_s']:8.3g}{marks}"
 
 
+def mm(value):
+    return f"{1e3 * value:.4g}"
+
+
 def finding(scan, species):
-    found = scan.found
-    low, high = 1e3 * found.low, 1e3 * found.high
+    """What a scan has found, a line each: the inversion, the band of its table, and where beds are mixed."""
+    found, lines, mixed = scan.found, [], mixed_interval(scan)
     if found.velocity is None:
-        return f"{scan.model}: no inversion between {low:.4g} and {high:.4g} mm/s\n"
-    some, runs = drifting(scan)
-    drift = (f"{scan.model}: undecided: {some} of {runs} runs in the bracket still drift, and +- covers their noise alone; use a longer --until\n"
-             if some else "")
-    below, above = species if found.slope > 0 else reversed(species)  # the centre of the second less that of the first grows
-    return (f"{scan.model}: inversion at {1e3 * found.velocity:.4g} +-{1e3 * found.error:.1g} mm/s, between {low:.4g} and {high:.4g} "
-            f"(ended by {found.outcome}), slope {found.slope:.3g} s/m; {below} on top below it, {above} above\n{drift}")
-
-
-def band_line(scan):
-    band = stress_band(scan)
-    if band:
-        return f"{scan.model}: {1e3 * band[0]:.4g} to {1e3 * band[1]:.4g} mm/s within one standard error of the table\n"
-    return f"{scan.model}: no band of the table: not every scan has found one\n" if scan.moved else ""
-
-
-def mixed_line(scan):
-    """The mixed interval of a scan; nothing of one without runs."""
-    if not scan.runs:
-        return ""
-    mixed = mixed_interval(scan)
-    if not mixed:
-        return f"{scan.model}: mixed (interface at the bed's height, x* = 5 %) in no run\n"
-    ends = [f" (not at {1e3 * mixed[name]:.4g})" if mixed[name] else "" for name in ("below_m_s", "above_m_s")]
-    return (f"{scan.model}: mixed (interface at the bed's height, x* = 5 %) from {1e3 * mixed['least_m_s']:.4g}{ends[0]} to "
-            f"{1e3 * mixed['greatest_m_s']:.4g}{ends[1]} mm/s\n")
-
-
-def contradicted(scan, interval):
-    """A line for the runs of a scan that are not mixed where the force balance says so."""
-    others = [f"{1e3 * velocity:.4g}" for velocity, mixed in sorted(mixed_velocities(scan).items())
-              if interval and interval[0] <= velocity <= interval[1] and not mixed]
-    return f"{scan.model}: contradicts it: not mixed at {', '.join(others)} mm/s\n" if others else ""
+        lines.append(f"no inversion between {mm(found.low)} and {mm(found.high)} mm/s")
+    else:
+        below, above = species if found.slope > 0 else reversed(species)  # the centre of the second less that of the first grows
+        lines.append(f"inversion at {mm(found.velocity)} +-{1e3 * found.error:.1g} mm/s, between {mm(found.low)} and {mm(found.high)} (ended by "
+                     f"{found.outcome}), slope {found.slope:.3g} s/m; {below} on top below it, {above} above")
+        some, runs = drifting(scan)
+        if some:
+            lines.append(f"undecided: {some} of {runs} runs in the bracket still drift, and +- covers their noise alone; use a longer --until")
+    if band := stress_band(scan):
+        lines.append(f"{mm(band[0])} to {mm(band[1])} mm/s within one standard error of the table")
+    elif scan.moved:
+        lines.append("no band of the table: not every scan has found one")
+    if mixed:
+        ends = [f" (not at {mm(mixed[name])})" if mixed[name] else "" for name in ("below_m_s", "above_m_s")]
+        lines.append(f"mixed (interface at the bed's height, x* = 5 %) from {mm(mixed['least_m_s'])}{ends[0]} to "
+                     f"{mm(mixed['greatest_m_s'])}{ends[1]} mm/s")
+    elif scan.runs:
+        lines.append("mixed (interface at the bed's height, x* = 5 %) in no run")
+    return [f"{scan.model}: {line}" for line in lines]
 
 
 def beside_lines(beside, scans):
-    """What stands beside the scans: from the force balance and from others. beside: as `polybed inversion --json` has it, or None"""
+    """What stands beside the scans: from the force balance, which their runs may contradict, and from others. beside: as
+    `polybed inversion --json` has it"""
     def between(what, values):
-        return f"{what}: {' to '.join(f'{1e3 * value:.4g}' for value in values)} mm/s\n" if values else ""
+        return [f"{what}: {' to '.join(map(mm, values))} mm/s"] if values else []
 
-    if not beside:
-        return ""
     interval, densities = beside["mixed_interval_m_s"], beside.get("equal_bulk_density_m_s")
-    reverse = "" if interval or not densities else between("no mixed interval by force balance: equal bulk densities lie above it, at", [densities])
-    return (between("mixed by force balance", interval) + reverse + "".join(contradicted(scan, interval) for scan in scans)
-            + between("measured", beside["measured_m_s"]) + between("simulated by others", beside["simulated_m_s"]))
+    lines = between("mixed by force balance", interval)
+    if not interval and densities:
+        lines += between("no mixed interval by force balance: equal bulk densities lie above it, at", [densities])
+    for scan in scans if interval else ():
+        others = [mm(velocity) for velocity, mixed in sorted(mixed_velocities(scan).items()) if interval[0] <= velocity <= interval[1] and not mixed]
+        lines += [f"{scan.model}: contradicts it: not mixed at {', '.join(others)} mm/s"] if others else []
+    return lines + between("measured", beside["measured_m_s"]) + between("simulated by others", beside["simulated_m_s"])
 
 
 def findings(scans, balance, beside=None, species=("species 1", "species 2")):
     """What the scans have found, as lines. balance: the point by force balance, or None"""
-    text = "\n" + "".join(finding(scan, species) + band_line(scan) + mixed_line(scan) for scan in scans)
-    if balance:
-        text += f"force balance: {1e3 * balance['velocity_m_s']:.4g} mm/s\n"
-    text += beside_lines(beside, scans)
-    agreement = agreement_of(scans)
-    if agreement:
-        text += (f"tfm/dem - 1: {agreement['value']:.3f} +-{agreement['error']:.1g}, goal {agreement['goal']:.3f}: "
-                 f"{({True: 'reached', False: 'missed', None: 'undecided, runs still drift'}[agreement['reached']])}\n")
-    return text
+    lines = [line for scan in scans for line in finding(scan, species)]
+    lines += [f"force balance: {mm(balance['velocity_m_s'])} mm/s"] if balance else []
+    lines += beside_lines(beside, scans) if beside else []
+    if agreement := agreement_of(scans):
+        verdict = {True: "reached", False: "missed", None: "undecided, runs still drift"}[agreement["reached"]]
+        lines.append(f"tfm/dem - 1: {agreement['value']:.3f} +-{agreement['error']:.1g}, goal {agreement['goal']:.3f}: {verdict}")
+    return "".join(f"{line}\n" for line in ["", *lines])
