@@ -155,12 +155,6 @@ def panels(run):
             *single("max_overlap_m", "largest overlap", "m"), *time_step]
 
 
-def parts_of(run, name):
-    """The stored names behind the name of a field or profile: ["phi_sand.1", "phi_sand.2"] for "phi_sand"."""
-    kind, _, species = name.partition("_")
-    return [f"{kind}_{one}" for one in run.kinds.get(species, [species])] if species else [name]
-
-
 def mean_over(values, shares):
     """The mean of arrays, one for each size class, weighted with the volume fractions of the classes; 0 where all of these are 0."""
     total = sum(shares)
@@ -179,9 +173,9 @@ def profile_panel(run, kind, rows):
     temperature where a species is absent."""
     profiles, (title, unit, fluid, label) = run.profiles, KINDS[kind]
     height, lines = profiles["y_m"], []
-    for n, species in enumerate(run.kinds):
-        parts, shares = ([profiles[name][rows] for name in parts_of(run, f"{of}_{species}") if name in profiles] for of in (kind, "phi"))
-        if len(parts) < len(run.kinds[species]):
+    for n, (species, classes) in enumerate(run.kinds.items()):
+        parts, shares = ([profiles[f"{of}_{one}"][rows] for one in classes if f"{of}_{one}" in profiles] for of in (kind, "phi"))
+        if len(parts) < len(classes):
             continue
         absent = kind != "phi" and len(shares) == len(parts)
         values = np.where(sum(shares) > FEW_SOLIDS, mean_over(parts, shares), np.nan) if absent else sum(parts)

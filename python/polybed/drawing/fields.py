@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from polybed.drawing.curves import mean_over
 from polybed.drawing.maps import Group, draw_maps
 from polybed.drawing.style import FEW_SOLIDS, TRACE, greatest_fraction, in_plane, shown_height, title_of
 from polybed.drawing.units import fitting
@@ -9,10 +10,25 @@ from polybed.drawing.units import fitting
 THIN = 0.05  # of the scale of all species, on which less looks like nothing
 
 
+def stored_maps(run, step, classes=False):
+    """Volume fractions of the species, voidage and upward velocities at a stored step, {(kind, label): values [y][x]}; no velocity where a
+    species is absent. classes: of sizes one by one, or as one"""
+    names = [name for name in run.fields if name.startswith(("phi_", "u_")) or name == "voidage"]
+    stored = {name: in_plane(values[..., 1] if name.startswith("u_") else values) for name, values in run.fields_at(step, names).items()}
+    species = {name: [name] for name in run.species} if classes else run.kinds
+    solids = {name: [stored[f"phi_{one}"] for one in parts] for name, parts in species.items() if f"phi_{parts[0]}" in stored}
+    found = {("solids", name): sum(parts) for name, parts in solids.items()}
+    found |= {("voidage", "fluid"): stored["voidage"]} if "voidage" in stored else {}
+    for name, parts in solids.items():
+        if f"u_{species[name][0]}" in stored:
+            mean = mean_over([stored[f"u_{one}"] for one in species[name]], parts)
+            found["velocity", name] = np.where(sum(parts) > FEW_SOLIDS, mean, np.nan)
+    return found | ({("velocity", "fluid"): stored["u_fluid"]} if "u_fluid" in stored else {})
+
+
 def fractions(run, step, classes=True):
     """Volume fractions of the species, on one scale; classes of sizes one by one, or as one."""
-    species = {name: [name] for name in run.species} if classes else run.kinds
-    maps = [(name, in_plane(sum(run.field(f"phi_{one}")[step] for one in parts))) for name, parts in species.items()]
+    maps = [(label, values) for (kind, label), values in stored_maps(run, step, classes).items() if kind == "solids"]
     most = max([greatest_fraction(run, [step])] + [float(values.max()) for _, values in maps])
     return Group("solids fraction", "viridis", (0, most), maps)
 
@@ -33,13 +49,7 @@ def voidages(run, step):
 
 def velocities(run, step):
     """Vertical velocities on one symmetric scale; where a species is absent it has none to show."""
-    maps = []
-    for name in [n for n in run.species if f"u_{n}" in run.fields]:
-        up = in_plane(run.field(f"u_{name}")[step][..., 1])
-        present = in_plane(run.field(f"phi_{name}")[step]) > FEW_SOLIDS
-        maps.append((name, np.ma.masked_where(~present, up)))
-    if "u_fluid" in run.fields:
-        maps.append(("fluid", in_plane(run.field("u_fluid")[step][..., 1])))
+    maps = [(label, np.ma.masked_invalid(values)) for (kind, label), values in stored_maps(run, step, True).items() if kind == "velocity"]
     most = max([1e-6] + [float(np.abs(values).max()) for _, values in maps if np.ma.count(values)])
     factor, unit = fitting("m/s", most)
     most = float(f"{most * factor:.2g}")  # two digits on the scale; a colour at its end is not to be read closer

@@ -2,9 +2,9 @@
 
 import numpy as np
 
-from polybed.drawing.curves import mean_over, parts_of
+from polybed.drawing.fields import stored_maps
 from polybed.drawing.maps import walls_of
-from polybed.drawing.style import COLOURS, FEW_SOLIDS, around_axis, as_shown, faces_across, in_plane, length_unit
+from polybed.drawing.style import COLOURS, FEW_SOLIDS, around_axis, as_shown, faces_across, length_unit
 from polybed.drawing.units import fitting
 from polybed.particles import step_shown
 from polybed.read import kinds_among
@@ -34,29 +34,13 @@ def even_rows(run):
     return np.searchsorted(faces, (np.arange(count) + 0.5) * faces[-1] / count) - 1
 
 
-def names_of(run):
-    """(field, label, kind) of the maps; a species with size classes has one map of each kind for all of them."""
-    found = [(f"phi_{name}", name, "solids") for name in run.kinds] + [("voidage", "fluid", "voidage")]
-    found += [(f"u_{name}", name, "velocity") for name in (*run.kinds, "fluid")]
-    return [entry for entry in found if set(parts_of(run, entry[0])) <= set(run.fields)]
-
-
 def read_maps(run, chosen, share):
-    """The maps [step][y][x] of each field; velocities upwards, and none where their species is absent."""
-    names, rows = names_of(run), even_rows(run)
-    parts = {name: parts_of(run, name) for name, _, _ in names}
-    maps = {name: [] for name in parts}
+    """The maps [step][y][x] by kind and label."""
+    rows, maps = even_rows(run), {}
     for step in chosen:
-        fields = run.fields_at(int(step), [one for of_map in parts.values() for one in of_map])
-        for name, label, kind in names:
-            planes = [in_plane(fields[one][..., 1]) if kind == "velocity" else in_plane(fields[one]) for one in parts[name]]
-            if kind == "velocity" and f"phi_{label}" in parts:
-                shares = [in_plane(fields[one]) for one in parts[f"phi_{label}"]]
-                plane = np.where(sum(shares) > FEW_SOLIDS, mean_over(planes, shares), np.nan)
-            else:
-                plane = sum(planes)
-            maps[name].append(coarse(np.ma.filled(as_shown(run, plane), np.nan)[rows], share).astype(np.float32))
-    return {name: np.stack(planes) for name, planes in maps.items()}
+        for key, plane in stored_maps(run, int(step)).items():
+            maps.setdefault(key, []).append(coarse(np.ma.filled(as_shown(run, plane), np.nan)[rows], share).astype(np.float32))
+    return {key: np.stack(planes) for key, planes in maps.items()}
 
 
 def scale_of(kind, arrays):
@@ -72,9 +56,9 @@ def scale_of(kind, arrays):
     return 0.0, max(0.1, later), "solids", 1.0, "solids fraction"
 
 
-def rows_shown(run, maps):
+def rows_shown(maps):
     """How many rows from the bottom: a fifth above the highest solids of all steps."""
-    solids = sum(maps[name] for name, _, kind in names_of(run) if kind == "solids")
+    solids = sum(values for (kind, _), values in maps.items() if kind == "solids")
     count = next(iter(maps.values())).shape[1]
     filled = np.flatnonzero(np.max(np.nan_to_num(solids), axis=(0, 2)) > FEW_SOLIDS) if np.ndim(solids) else []
     return min(count, max(1, int(np.ceil(1.2 * (filled[-1] + 1))))) if len(filled) else count
@@ -82,22 +66,23 @@ def rows_shown(run, maps):
 
 def maps_of(run):
     """The maps for JSON, with the slider's times; None of a run without fields."""
-    if len(run.time) == 0 or not names_of(run):
+    first = stored_maps(run, 0) if len(run.time) else {}
+    if not first:
         return None
-    cells = len(even_rows(run)), in_plane(run.field(parts_of(run, names_of(run)[0][0])[0])[0]).shape[1]
+    cells = len(even_rows(run)), next(iter(first.values())).shape[1]
     share = max(1, int(np.ceil(np.sqrt(cells[0] * cells[1] / MOST_CELLS))))
     share = min(share, *cells)
-    bytes_of_step = len(names_of(run)) * (cells[0] // share) * (cells[1] // share)
+    bytes_of_step = len(first) * (cells[0] // share) * (cells[1] // share)
     chosen = thinned(len(run.time), max(2, MOST_LEVELS // bytes_of_step))
     maps = read_maps(run, chosen, share)
-    rows, factor = rows_shown(run, maps), length_unit(run)[0]
-    scales = {kind: scale_of(kind, [maps[n][:, :rows] for n, _, k in names_of(run) if k == kind]) for _, _, kind in names_of(run)}
+    rows, factor = rows_shown(maps), length_unit(run)[0]
+    scales = {kind: scale_of(kind, [values[:, :rows] for (of, _), values in maps.items() if of == kind]) for kind, _ in maps}
     while True:
         found = []
-        for name, label, kind in names_of(run):
+        for (kind, label), values in maps.items():
             low, high, colours, scale, title = scales[kind]
             found.append({"label": label, "kind": kind, "scale": title, "colours": colours, "low": low * scale, "high": high * scale,
-                          "levels": packed(levels(maps[name][:, :rows], low, high))})
+                          "levels": packed(levels(values[:, :rows], low, high))})
         if sum(len(one["levels"]) for one in found) <= MOST_TEXT or len(chosen) <= 2:
             break
         kept = thinned(len(chosen), len(chosen) // 2)
@@ -109,7 +94,7 @@ def maps_of(run):
     notes += [f"each pixel is the mean of {share} x {share} cells"] if share > 1 else []
     notes += ["the plane at half depth"] if run.dimensions == 3 else ["both sides of the axis"] if around_axis(run) else []
     notes += [SUMS] if len(run.kinds) < len(run.species) else []
-    if "solids" in scales and any(np.nanmax(values) > 1.1 * scales["solids"][1] for name, values in maps.items() if name.startswith("phi_")):
+    if "solids" in scales and any(np.nanmax(values) > 1.1 * scales["solids"][1] for (kind, _), values in maps.items() if kind == "solids"):
         notes.append("the scale of the solids fraction is that of the later half")
     return {"time": plain_numbers(run.time[chosen]), "nx": nx, "ny": rows, "size": size, "maps": found, "note": "; ".join(notes),
             "empty": EMPTY}

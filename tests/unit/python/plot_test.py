@@ -79,7 +79,8 @@ class Style(SampleRun):
         path.write_text("".join(",".join(row if n == 0 else [*row, "0.05"]) + "\n" for n, row in enumerate(rows)))
         stored = {"phi_sand.1": self.sample.phi_fine[4], "phi_sand.2": self.sample.phi_coarse[4]}
         with unittest.mock.patch.object(self.sample, "fields", list(stored)), \
-                unittest.mock.patch.object(self.sample, "field", lambda name: {4: stored[name]}, create=True):
+                unittest.mock.patch.object(self.sample, "field", lambda name: {4: stored[name]}), \
+                unittest.mock.patch.object(self.sample, "fields_at", lambda _, names: {name: stored[name] for name in names}):
             self.assertEqual(self.sample.kinds, {"sand": ["sand.1", "sand.2"]})
             (name, drawn), = fields.fractions(self.sample, 4, classes=False).maps
         np.testing.assert_array_equal(drawn, sum(stored.values()))
