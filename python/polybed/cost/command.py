@@ -1,5 +1,6 @@
 """The command line of polybed cost."""
 
+import argparse
 import re
 from pathlib import Path
 
@@ -12,31 +13,28 @@ from polybed.cost.reference import find_reference
 from polybed.cost.report import sweep_json, sweep_markdown, write_sweep
 from polybed.cost.runner import Runner
 from polybed.cost.scene import Scene
-from polybed.cost.sweep import CANDIDATE, SweepOptions
+from polybed.cost.sweep import CANDIDATE
 from polybed.cost.sweeper import Sweeper, common_overrides
 from polybed.program import name_of
 from polybed.runner import call, words_of
 from polybed.study.output import draw, subfolder, taken
 from polybed.ending import DONE, FILE, NUMBERS, WRONG_CASE, StudyError, answer, guarded
 
-SECONDS = {"us": 1e-6, "ms": 1e-3, "s": 1.0, "min": 60.0, "h": 3600.0}
 NUMBER = r" *\+?(\d+\.?\d*(?:[eE][-+]?\d+)?|\.\d+(?:[eE][-+]?\d+)?) *"
 
 
-def target_of(text):
-    """ "1%" or "0.01"."""
-    found = re.fullmatch(NUMBER + r"(%?)", text)
-    if not found or not float(found[1]) > 0:
-        raise StudyError(WRONG_CASE, f"--target {text}: expected an error, e.g. 1%")
-    return float(found[1]) / 100 if found[2] else float(found[1])
+def number_in(units, what):
+    """What reads a number above 0 with one of these units, or without. units: by their names what each is"""
+    def read(text):
+        found = re.fullmatch(NUMBER + rf"({'|'.join(units)})? *", text)
+        if not found or not float(found[1]) > 0:
+            raise argparse.ArgumentTypeError(f"{text}: expected {what}")
+        return float(found[1]) * units.get(found[2], 1.0)
+    return read
 
 
-def budget_of(text):
-    """s; a number without a unit is of seconds."""
-    found = re.fullmatch(NUMBER + rf"({'|'.join(SECONDS)})? *", text)
-    if not found or not float(found[1]) > 0:
-        raise StudyError(WRONG_CASE, f"--budget {text}: expected a time, e.g. 20min")
-    return float(found[1]) * SECONDS[found[2] or "s"]
+target_of = number_in({"%": 0.01}, "an error, e.g. 1%")
+budget_of = number_in({"us": 1e-6, "ms": 1e-3, "s": 1.0, "min": 60.0, "h": 3600.0}, "a time, e.g. 20min")  # s
 
 
 def listed(text):
@@ -50,12 +48,12 @@ def parser():
                          help="CASE: the study; check DIR: run its recommendation again")
     options.add_argument("-o", "--output", type=Path, help="folder; default runs/<case name>-cost")
     options.add_argument("--model", choices=("tfm", "dem"), help="default: tfm where it runs the case")
-    options.add_argument("--qoi", type=listed, default=[],
+    options.add_argument("--qoi", dest="quantities", type=listed, default=[],
                          help="measured quantities, separated by commas; the first decides (default: bed_height)")
     options.add_argument("--axes", type=listed, default=[],
                          help=f"what is varied, separated by commas: {', '.join(MAKERS)} (default: all that act)")
-    options.add_argument("--target", default="1%", help="largest error allowed (default: 1%%)")
-    options.add_argument("--budget", default="20min", help="wall time of the whole study (default: 20min)")
+    options.add_argument("--target", type=target_of, default="1%", help="largest error allowed (default: 1%%)")
+    options.add_argument("--budget", type=budget_of, default="20min", help="wall time of the whole study (default: 20min)")
     options.add_argument("--clock", choices=("work", "wall"), default="work",
                          help="time that counts: work (counted operations, the same every time) or wall (default: work)")
     options.add_argument("--reference", default="auto", help="auto, exact (force balance, one species), or the directory of a run")
@@ -112,16 +110,16 @@ def sweep(given):
         raise StudyError(WRONG_CASE, f"{folder} contains a study already: --resume continues it, --force replaces it")
     if given.reference not in ("auto", "exact") and not (Path(given.reference) / "profiles.h5").exists():
         raise StudyError(FILE, f"--reference {given.reference}: no run directory")
-    options = SweepOptions(model_of(scene, given.model), given.qoi, given.axes, target_of(given.target), budget_of(given.budget), given.clock,
-                           given.reference, given.quiet or given.json)
+    given.model = model_of(scene, given.model)
+    given.quiet = given.quiet or given.json
     overrides = [*scene.overrides, *common_overrides(scene)]
     with taken(folder):
-        found = run_sweep(scene, options, Runner(scene, overrides, subfolder(folder, "runs"), given.resume))
+        found = run_sweep(scene, given, Runner(scene, overrides, subfolder(folder, "runs"), given.resume))
         record = sweep_json(found, scene, overrides)
         text = write_sweep(record, folder)
         answer(text if given.json else f"{sweep_markdown(record)}\n{folder / 'cost.json'}")
         if given.picture:
-            draw(folder / "cost.json", "picture", given.json or given.quiet)
+            draw(folder / "cost.json", "picture", given.quiet)
     return found.outcome == "done"
 
 

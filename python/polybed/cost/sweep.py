@@ -1,5 +1,6 @@
 """What was run, what it is measured against, and what follows."""
 
+from argparse import Namespace
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import NamedTuple
@@ -10,18 +11,6 @@ from polybed.cost.runner import RunOrder, RunOutcome
 
 # What a row stands for.
 CANDIDATE, MODEL, REFERENCE, TWIN, SOLVER, INPUT = "candidate", "model", "reference", "twin", "solver", "input"
-
-
-@dataclass
-class SweepOptions:
-    model: str = "tfm"
-    quantities: list = field(default_factory=list)  # the first one ranks; empty: by default
-    axes: list = field(default_factory=list)  # empty: by default
-    target: float = 0.01  # error
-    budget: float = 1200.0  # wall time, s
-    clock: str = "work"  # work | wall
-    reference: str = "auto"  # auto | exact | a directory of a run
-    quiet: bool = False
 
 
 class RowQuantity(NamedTuple):
@@ -70,7 +59,7 @@ class Share:
 
 @dataclass
 class Sweep:
-    options: SweepOptions
+    options: Namespace  # of the command line
     axes: list = field(default_factory=list)
     quantities: list = field(default_factory=list)  # QuantityInfo
     begin: float = 0.0  # of the window, s

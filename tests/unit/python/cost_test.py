@@ -6,6 +6,7 @@ import os
 import sys
 import tempfile
 import unittest
+from argparse import ArgumentTypeError
 from math import e, inf
 from types import SimpleNamespace
 
@@ -250,7 +251,7 @@ class Words(unittest.TestCase):
         self.assertEqual([command.budget_of(text) for text in ("20min", "3", "500ms", "1.5 h")], [1200, 3, 0.5, 5400])
         for read, texts in ((command.target_of, ("", "0%", "-1%", "1 m", "nan")), (command.budget_of, ("", "0s", "-3", "5 m", "inf", "1%"))):
             for text in texts:
-                with self.assertRaises(StudyError, msg=text):
+                with self.assertRaises(ArgumentTypeError, msg=text):
                     read(text)
 
 
