@@ -17,28 +17,18 @@ def find_reference(sweeper):
     if wanted == "exact":
         exact_reference(sweeper)
     elif wanted != "auto":
-        given_reference(sweeper.sweep, wanted)
+        take(sweeper.sweep, "directory", wanted, quantities_of_run(measured(wanted), sweeper.sweep.begin, sweeper.sweep.slabs))
     elif sweeper.sweep.chaotic:
         statistical_reference(sweeper)
     else:
         additive_reference(sweeper)
 
 
-def means_of(row):
-    return {name: mean.mean for name, mean in row.measured.values.items()}
-
-
-def given_reference(sweep, folder):
-    found = quantities_of_run(measured(folder), sweep.begin, sweep.slabs)
-    sweep.reference = Reference("directory", folder, {name: mean.mean for name, mean in found.values.items()}, directory=found.directory)
-    set_bands(sweep, found.values)
-
-
-def set_bands(sweep, values):
-    """The bands are the intervals of the reference itself, and so are the floors."""
-    reference = sweep.reference
-    reference.band = {name: (mean.error or 0.0) / scale_of(sweep, name) for name, mean in values.items()}
-    reference.floor = dict(reference.band)
+def take(sweep, kind, note, measured):
+    """Makes the reference what a run has measured; its intervals are the bands, and so are the floors."""
+    sweep.reference = Reference(kind, note, {name: mean.mean for name, mean in measured.values.items()}, directory=measured.directory)
+    sweep.reference.band = {name: (mean.error or 0.0) / scale_of(sweep, name) for name, mean in measured.values.items()}
+    sweep.reference.floor = dict(sweep.reference.band)
 
 
 def exact_reference(sweeper):
@@ -50,7 +40,7 @@ def exact_reference(sweeper):
     if len(sweeper.scene.species) > 1 or not found.done or sweep.ranking not in found.measured.values:
         return sweep.refuse("no exact value of this quantity: one is known of the height and the pressure drop of a bed of one species "
                             "that is carried")
-    sweep.reference = Reference("exact", "uniform expansion by the balance of forces", means_of(found))
+    take(sweep, "exact", "uniform expansion by the balance of forces", found.measured)
 
 
 def statistical_reference(sweeper):
@@ -65,8 +55,7 @@ def statistical_reference(sweeper):
         found = found if found.done else sweeper.row_on_line("grid", level) or found
     if not found.done:
         return
-    sweep.reference = Reference("statistical", settings_text(sweep, found), means_of(found), directory=found.measured.directory)
-    set_bands(sweep, found.measured.values)
+    take(sweep, "statistical", settings_text(sweep, found), found.measured)
     if found.kind == CANDIDATE:
         sweep.warnings.append("the reference is one of the runs that it ranks")
 
@@ -89,7 +78,8 @@ def additive_reference(sweeper):
     if not two.done:
         return sweep.refuse(f"no second integrator to check the reference by: {two.outcome.reason}")
     note = "tolerances two levels tighter than the tightest, checked by another kind of integrator"
-    sweep.reference = reference = Reference("self", note, means_of(one), directory=one.measured.directory)
+    values = {name: mean.mean for name, mean in one.measured.values.items()}
+    sweep.reference = reference = Reference("self", note, values, directory=one.measured.directory)
     for name, mean in two.measured.values.items():
         if name in reference.value:
             reference.floor[name] = FLOOR_FACTOR * abs(mean.mean - reference.value[name]) / scale_of(sweep, name)
