@@ -77,14 +77,12 @@ def kinds_of(run):
     return tuple(what for what in WHAT if what not in stored or len(stored[what]))
 
 
-def picture(directory, time=None, output=None):
+def picture(directory, time=None):
     """Draws a run at a time (the last one if None) in one picture, and returns its path."""
     run = Snapshot(directory)
-    with plt.rc_context(STYLE):
-        step = step_of(run, time)
-        with contents_of(run.directory):
-            figure = overview.draw(run, step)
-        return save(figure, Path(output) if output else run.directory / "picture.png")
+    step = step_of(run, time)
+    with plt.rc_context(STYLE), contents_of(run.directory):
+        return save(overview.draw(run, step), run.directory / "picture.png")
 
 
 def draw_one(run, what, time, folder, ending, rate=None, progress=None):
@@ -141,23 +139,21 @@ def parsed(arguments):
     return parser.parse_args(arguments)
 
 
+def drawn(options):
+    """Draws what is chosen, and returns the paths, or what to say of them."""
+    if options.picture:
+        return [at_end(options.run, options.time)]
+    study = next(filter(Path.exists, (Path(options.run, name) for name in STUDIES)), None)
+    if study and not Path(options.run, "run.json").exists():
+        return study_drawn(study, options.out)
+    progress = Bar("animation").show if sys.stderr.isatty() and not options.quiet else None
+    what = None if options.what == "all" else options.what.split(",")
+    paths = pictures(options.run, what, options.time, options.out, options.format, options.rate, progress)
+    return [json.dumps({"pictures": [str(path) for path in paths]})] if options.json else paths
+
+
 def main(arguments=None):
+    options = parsed(arguments)
     with warnings.catch_warnings():  # of numbers that no axis can show: the picture is missing, and one line says why
         warnings.simplefilter("ignore", RuntimeWarning)
-        return drawn(parsed(arguments))
-
-
-def drawn(options):
-    """Draws the pictures chosen, prints where they are or what is wrong, and returns the exit code."""
-    if options.picture:
-        return made(lambda: [at_end(options.run, options.time)])
-
-    def paths():
-        study = next(filter(Path.exists, (Path(options.run, name) for name in STUDIES)), None)
-        if study and not Path(options.run, "run.json").exists():
-            return study_drawn(study, options.out)
-        progress = Bar("animation").show if sys.stderr.isatty() and not options.quiet else None
-        what = None if options.what == "all" else options.what.split(",")
-        drawn = pictures(options.run, what, options.time, options.out, options.format, options.rate, progress)
-        return [json.dumps({"pictures": [str(path) for path in drawn]})] if options.json else drawn
-    return made(paths)
+        return made(lambda: drawn(options))

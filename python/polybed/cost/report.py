@@ -4,6 +4,7 @@ import os
 from math import isfinite
 
 from polybed.cost.judge import level_of, scale_of
+from polybed.cost.sweep import CANDIDATE
 from polybed.cost.words import CLOCKS, REFERENCE, STATUS, in_words, part, percent
 from polybed.cost.runner import VERSION, weighed
 from polybed.drawing.units import text
@@ -51,8 +52,11 @@ def recommendation_json(sweep):
         return []
     row = sweep.rows[sweep.recommended]
     quantity = row.quantities[sweep.ranking]
+    given = next((one for one in sweep.rows if one.kind == CANDIDATE and one.done and not one.note
+                  and all(level_of(one, axis) == axis.given for axis in sweep.axes)), row)
     return [{"target": sweep.options.target, "qoi": sweep.ranking, "run": sweep.recommended, **settings_of(sweep, row),
-             "error": quantity.error, "ci": finite(quantity.error_interval), "s_per_sim_s": row.rate, "confirmed": False}]
+             "error": quantity.error, "ci": finite(quantity.error_interval), "s_per_sim_s": row.rate,
+             "given_s_per_sim_s": given.rate, "confirmed": False}]
 
 
 def shares_json(shares):
@@ -93,7 +97,8 @@ def advice(found):
     name = next((q["id"] for q in found["qoi"] if q["shown"]), "")
     lines = [f"For an error of at most {percent(one['target'])} in {one['qoi']} use {settings_words(found, found['runs'][one['run']])}: "
              f"error {percent(one['error'], one['ci'])}, {text(one['s_per_sim_s'], 's')} of computing for a simulated second"
-             f"{'' if one['confirmed'] else ' (not confirmed by a second run)'}." for one in found["recommend"]]
+             f"{'' if one['confirmed'] else ' (not confirmed by a second run)'}; the case as given takes "
+             f"{one.get('given_s_per_sim_s', one['s_per_sim_s']) / one['s_per_sim_s']:.3g} times that." for one in found["recommend"]]
     if found["outcome"] != "done":
         return [f"{OUTCOMES[found['outcome']]}: {found['reason']}."]
     lines = lines or [f"No run has an error of at most {percent(found['target'])} in {name}, its interval included."]

@@ -131,8 +131,7 @@ def list_entries(options):
         answer(json_text(rows))
     else:
         answer(text_table(("bed", "model", "takes", "at the last recorded results"),
-                                 [(row["entry"], row["model"], "-" if row["seconds"] is None else duration(row["seconds"]), row["held"])
-                                  for row in rows]))
+                          [(row["entry"], row["model"], "-" if row["seconds"] is None else duration(row["seconds"]), row["held"]) for row in rows]))
     return DONE
 
 
