@@ -281,7 +281,7 @@ class Comparison(Scratch):
                   self.folder / "scanned", "--inversion", path.parent)
         text = (self.folder / "scanned/comparison.html").read_text()
         self.assertIn(f"<td>{page.SCORES['u_inv']}</td><td>0.05 ± 0.01</td>", text)
-        self.assertIn("<td>two-fluid</td><td>21 mm/s ± 100 µm/s</td><td>20.7 mm/s to 21.3 mm/s</td><td>the range is narrow enough</td>", text)
+        self.assertIn("<td>two-fluid</td><td>21 ± 0.1 mm/s</td><td>20.7 mm/s to 21.3 mm/s</td><td>the range is narrow enough</td>", text)
         self.assertIn(f"<code>{path}</code> (commit {found['git_commit']})", text)
         for run in runs:
             self.assertIn(f"<code>{run['directory']}</code> (commit {run['git_commit']})", text)

@@ -14,6 +14,7 @@ from polybed.drawing.style import COLOURS, GREY, NAMES, PALE
 from polybed.read import read
 from polybed.folder import title_of_case
 from polybed.runner import words_of
+from polybed.study.compare_report import with_error
 from polybed.study.inversion_search import known
 
 
@@ -72,7 +73,9 @@ def velocity_row(model, of):
     if of["velocity_m_s"] is None:
         found = "not found"
     else:
-        found = text(of["velocity_m_s"], "m/s") + (f" \u00b1 {text(of['error_m_s'], 'm/s', 2)}" if of["error_m_s"] is not None else "")
+        factor, unit = fitting("m/s", of["velocity_m_s"])
+        error = None if of["error_m_s"] is None else of["error_m_s"] * factor
+        found = f"{with_error(of['velocity_m_s'] * factor, error)} {unit}"
     between = " to ".join("?" if of[f"{end}_m_s"] is None else text(of[f"{end}_m_s"], "m/s") for end in ("low", "high"))
     return [NAMES[model], found, between, OUTCOMES.get(of["outcome"], of["outcome"]), str(len(of["runs"])), text(of["cpu_s"], "s")]
 
