@@ -1,41 +1,40 @@
 """A table beside its file: the same as TOML, what the boxes have measured, for people; and points that a table was not fitted to, compared
 with it."""
 
+import json
 import math
 
 import numpy as np
 
 from polybed.calibration.boxes import Point
 from polybed.calibration.fit import relative_errors, shear_number
+from polybed.solids_table import AXES
 from polybed.tables import right_table
 
 
-def listed(values):
-    return "[" + ", ".join(f"{value:.6g}" for value in np.ravel(values)) + "]"
-
-
-def spread(boxes, name):
-    return listed([min(box[name] for box in boxes), max(box[name] for box in boxes)])
+def shown(value):
+    """A text, a number or an array as TOML has it, arrays without their shape."""
+    if isinstance(value, str):
+        return json.dumps(value, ensure_ascii=False)
+    return f"{value:.6g}" if np.ndim(value) == 0 else f"[{', '.join(f'{one:.6g}' for one in np.ravel(value))}]"
 
 
 def table_toml(table, plan, boxes, coefficients):
     """TOML of a table of sheared boxes. coefficients: a of chi_eff = chi_CS (1 + a S) at each point of a dry table"""
-    a = table.attributes
-    text = "".join(f"{name} = {value}\n" for name, value in (
-        ("filetype", '"polybed solids table"'), ("version", 1), ("git_commit", f'"{a["git_commit"]}"'), ("created", f'"{a["created"]}"'),
-        ("case_hash", f'"{a["case_hash"]}"'), ("regime", f'"{plan.regime}"'), ("regime_reason", f'"{plan.case["reason"]}"'),
-        ("reference", f'"{a["reference"]}"'), ("fit_residual", f"{a['fit_residual']:.4g}"),
-        ("left_out_residual", f"{a['left_out_residual']:.4g}"), ("greatest_error", f"{max(relative_errors(table)):.4g}"),
-        ("lambda", f"{a['lambda']:.6g}"), ("size_ratio", f"{a['size_ratio']:.6g}"), ("boxes", len(boxes)),
-        ("particle_steps", f"{sum(box['particle_steps'] for box in boxes):.4g}"), ("cpu_s", f"{sum(box['cpu_s'] for box in boxes):.4g}"),
-        *((name, spread(boxes, name)) for name in ("balance", "softness", "max_overlap", "drift", "strain", "drag_rate"))))
-    text += "\n[axes]\n" + "".join(f"{name} = {listed(table[name])}\n" for name in ("phi", "stokes", "e", "mu_p", "x2"))
+    kept = ("filetype", "version", "git_commit", "created", "case_hash", "regime", "reference", "fit_residual", "left_out_residual", "lambda",
+            "size_ratio")
+    head = {name: table.attributes[name] for name in kept} | {
+        "regime_reason": plan.case["reason"], "greatest_error": max(relative_errors(table)), "boxes": len(boxes)}
+    head |= {name: sum(box[name] for box in boxes) for name in ("particle_steps", "cpu_s")}
+    head |= {name: [min(box[name] for box in boxes), max(box[name] for box in boxes)]
+             for name in ("balance", "softness", "max_overlap", "drift", "strain", "drag_rate")}
     quantities = {"seeds": "p_ratio_n", "p": "p_ratio", "p_se": "p_ratio_se", "mu": "mu_ratio", "mu_se": "mu_ratio_se",
                   "gamma": "gamma_ratio", "gamma_se": "gamma_ratio_se", "T_12": "T_ratio_12", "T_12_se": "T_ratio_12_se", "S": "S",
                   "beta_12": "beta_12_ratio", "beta_12_se": "beta_12_ratio_se"}
-    text += "\n[ratios]  # [phi][stokes][e][mu_p][x2]\n"
-    text += "".join(f"{name} = {listed(table[array])}\n" for name, array in quantities.items() if array in table.arrays)
-    return text + (f"\n[fit]  # chi_eff = chi_CS (1 + a S)\na = {listed(coefficients)}\n" if plan.regime == "dry" else "")
+    parts = {"": head, "\n[axes]\n": {name: table[name] for name in AXES},
+             "\n[ratios]  # [phi][stokes][e][mu_p][x2]\n": {name: table[array] for name, array in quantities.items() if array in table.arrays}}
+    parts |= {"\n[fit]  # chi_eff = chi_CS (1 + a S)\n": {"a": coefficients}} if plan.regime == "dry" else {}
+    return "".join(heading + "".join(f"{name} = {shown(value)}\n" for name, value in part.items()) for heading, part in parts.items())
 
 
 def measured(mean, per=1.0):
