@@ -14,6 +14,13 @@ from polybed.runner import Door, ranks, side_by_side
 from polybed.solids_table import AXES
 from polybed.study.output import remark
 
+# What is read of a box: numbers, and means with their standard error.
+SINGLE = ("solids_fraction", "stokes", "restitution", "friction", "share", "seed", "balance", "drift", "shear_rate_1_s", "diameter_m",
+          "density_kg_m3", "strain", "drag_rate", "softness", "max_overlap", "cpu_s", "particle_steps", "bed_phi", "slip_over_sqrt_theta",
+          "velocity_m_s")
+MEANS = ("theta_m2_s2", "pressure_Pa", "viscosity_Pa_s", "temperature_ratio", "p_ratio", "mu_ratio", "gamma_ratio", "exchange_ratio",
+         "p_bed", "p_bed_by_balance")
+
 
 class Point(NamedTuple):
     """One box: its place in the table, and the seed of its random numbers."""
@@ -60,14 +67,6 @@ class Plan:
         """The seeds of every point, then as many again of the points that are pushed."""
         boxes = [point._replace(seed=seed + 1) for point, seeds in zip(self.points(), self.seeds) for seed in range(seeds)]
         return boxes + [box._replace(pushed=True) for box in boxes if self.pushed]
-
-
-# What is read of a box: numbers, and means with their standard error.
-SINGLE = ("solids_fraction", "stokes", "restitution", "friction", "share", "seed", "balance", "drift", "shear_rate_1_s", "diameter_m",
-          "density_kg_m3", "strain", "drag_rate", "softness", "max_overlap", "cpu_s", "particle_steps", "bed_phi", "slip_over_sqrt_theta",
-          "velocity_m_s")
-MEANS = ("theta_m2_s2", "pressure_Pa", "viscosity_Pa_s", "temperature_ratio", "p_ratio", "mu_ratio", "gamma_ratio", "exchange_ratio",
-         "p_bed", "p_bed_by_balance")
 
 
 def read_box(path, digest):

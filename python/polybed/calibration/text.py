@@ -11,6 +11,17 @@ from polybed.calibration.fit import relative_errors, shear_number
 from polybed.solids_table import AXES
 from polybed.tables import right_table
 
+# Column of a box: (heading, its number or text)
+PLACE = (("phi", lambda box: f"{box['solids_fraction']:g}"), ("St", lambda box: f"{box['stokes']:g}"),
+         ("e", lambda box: f"{box['restitution']:g}"), ("mu_p", lambda box: f"{box['friction']:g}"),
+         ("x2", lambda box: f"{box['share']:g}"), ("seed", lambda box: f"{box['seed']}"))
+MEANING = """phi: solids fraction; St: Stokes number of the shear; e, mu_p: restitution and friction of particles
+x2: share of the second species; theta: granular temperature; g, d: shear rate and diameter
+p, mu: pressure and viscosity of the solids over density, g and d; ref: by kinetic theory
+G: energy lost in collisions
+"""
+SEED = 1001  # one that no plan has
+
 
 def shown(value):
     """A text, a number or an array as TOML has it, arrays without their shape."""
@@ -41,10 +52,6 @@ def measured(mean, per=1.0):
     return f"{mean[0] / per:.4g}±{mean[1] / per:.1g}"
 
 
-# Column of a box: (heading, its number or text)
-PLACE = (("phi", lambda box: f"{box['solids_fraction']:g}"), ("St", lambda box: f"{box['stokes']:g}"),
-         ("e", lambda box: f"{box['restitution']:g}"), ("mu_p", lambda box: f"{box['friction']:g}"),
-         ("x2", lambda box: f"{box['share']:g}"), ("seed", lambda box: f"{box['seed']}"))
 SHEARED = (("theta/(g d)^2", lambda box: measured(box["theta_m2_s2"], math.pow(box["shear_rate_1_s"] * box["diameter_m"], 2))),
            ("p", lambda box: measured(box["pressure_Pa"], unit_of(box) * box["shear_rate_1_s"])),
            ("mu", lambda box: measured(box["viscosity_Pa_s"], unit_of(box))),
@@ -53,11 +60,6 @@ SHEARED = (("theta/(g d)^2", lambda box: measured(box["theta_m2_s2"], math.pow(b
 OF_TWO = (("T_2/T_1", lambda box: measured(box["temperature_ratio"])),
           ("beta_12/ref", lambda box: measured(box["exchange_ratio"]) if box["pushed"] else ""),
           ("slip", lambda box: f"{box['slip_over_sqrt_theta']:.3f}"))
-MEANING = """phi: solids fraction; St: Stokes number of the shear; e, mu_p: restitution and friction of particles
-x2: share of the second species; theta: granular temperature; g, d: shear rate and diameter
-p, mu: pressure and viscosity of the solids over density, g and d; ref: by kinetic theory
-G: energy lost in collisions
-"""
 
 
 def unit_of(box):
@@ -84,9 +86,6 @@ def box_lines(boxes):
     lines += (f"number of the shear in the fit (S) {between([shear_number(box) for box in sheared], 4)}; "
               f"work of the shear over dissipation {between([box['balance'] for box in sheared], 5)}\n")
     return lines + ("\n" + table_lines(binary, OF_TWO) if binary else "")
-
-
-SEED = 1001  # one that no plan has
 
 
 def points_between(table, binary):

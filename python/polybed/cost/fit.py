@@ -6,6 +6,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+LEAST_RATIO = 1.3
+
 
 class PowerLaw(NamedTuple):
     """y = factor x^exponent; a law with the factor 0 is absent, its variable without influence."""
@@ -46,7 +48,6 @@ def pareto_front(points):
     return front
 
 
-LEAST_RATIO = 1.3
 SAFETY_IN_RANGE, SAFETY_ELSEWHERE = 1.25, 3
 
 

@@ -21,6 +21,10 @@ VERSION = 1  # of the weights: numbers weighed by other versions are not to be c
 WEIGHTS = {"rhs_evaluations x unknowns": 23, "pressure_iterations x unknowns": 8, "jacobian_products x unknowns": 90, "particle_steps": 15,
            "pair_checks": 4, "contact_evaluations": 25, "candidates": 7, "particle_steps in the fluid": 38, "fluid_steps": 2e5,
            "fluid_steps x particles": 300, "fluid_iterations x cells": 60}
+MOST_SAID = 300  # characters of what a run that failed has said
+# What a run stores and a sweep does not read.
+NOT_READ = re.compile(r"((fields|particles)\.(h5|xdmf)|checkpoint(\.previous)?\.h5(\.new)?)(\.temporary)?")
+STEP = re.compile(r"\d{6,}\.h5(\.temporary)?")
 
 
 def counters_of(record, cells):
@@ -49,12 +53,6 @@ def counters_of(record, cells):
 def weighed(counters):
     """Sum of the counters with their weights, s."""
     return sum(1e-9 * WEIGHTS[name] * counters[name] for name in sorted(counters) if name in WEIGHTS)
-
-
-MOST_SAID = 300  # characters of what a run that failed has said
-# What a run stores and a sweep does not read.
-NOT_READ = re.compile(r"((fields|particles)\.(h5|xdmf)|checkpoint(\.previous)?\.h5(\.new)?)(\.temporary)?")
-STEP = re.compile(r"\d{6,}\.h5(\.temporary)?")
 
 
 class RunOrder(NamedTuple):

@@ -9,6 +9,12 @@ from polybed.drawing.style import FEW_SOLIDS, GREY, drop_over_weight, length_uni
 from polybed.drawing.units import fitting
 
 PARTS = 40  # of the time, over each of which a rate is a mean
+STORED = ("kinetic_J", "rotational_J", "elastic_J", "potential_J")
+LEDGER = (*STORED, "dissipated_J", "work_J")
+CARRIED = {"carried_out_J": 1, "carried_in_J": -1}  # there only where particles can leave, or are fed
+# Kinds of profiles: title, unit, and what is drawn besides the species.
+KINDS = {"phi": ("volume fraction", "1", "voidage", "voidage"), "u": ("upward velocity", "m/s", "u_fluid", "fluid"),
+         "p": ("net pressure", "Pa", "p", "net pressure"), "theta": ("granular temperature", "m2/s2", "", "")}
 
 
 def mass_out(history, species):
@@ -36,14 +42,6 @@ def discharge_rate(history, species):
     edges = np.linspace(time[0], time[-1], parts + 1)
     mass = np.interp(edges, time, sum(out))
     return (edges[1:] + edges[:-1]) / 2, np.diff(mass) / np.diff(edges)
-
-
-STORED = ("kinetic_J", "rotational_J", "elastic_J", "potential_J")
-LEDGER = (*STORED, "dissipated_J", "work_J")
-CARRIED = {"carried_out_J": 1, "carried_in_J": -1}  # there only where particles can leave, or are fed
-# Kinds of profiles: title, unit, and what is drawn besides the species.
-KINDS = {"phi": ("volume fraction", "1", "voidage", "voidage"), "u": ("upward velocity", "m/s", "u_fluid", "fluid"),
-         "p": ("net pressure", "Pa", "p", "net pressure"), "theta": ("granular temperature", "m2/s2", "", "")}
 
 
 class Line(NamedTuple):

@@ -13,6 +13,7 @@ from polybed.folder import case_of, velocity_of
 
 MOST_LIMITS = 8
 MODELS = {"tfm": "two-fluid model", "dem": "particles, one by one"}
+HEADING = 14  # columns of a line before what it says
 
 
 def reason_of(limited_by):
@@ -135,9 +136,6 @@ def commands(run, record):
     elif record.get("card", {}).get("steady") is False and record.get("time_s"):
         lines.insert(2, f'# not steady: go on for as long again\n{goes_on} --until "{2 * record["time_s"]:.4g} s"')
     return listing("\n".join(lines) + f'\n# in Python\nimport polybed\nrun = polybed.read({str(run.directory)!r})')
-
-
-HEADING = 14  # columns of a line before what it says
 
 
 def recorded(lines):

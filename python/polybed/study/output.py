@@ -10,6 +10,8 @@ from polybed.ending import FILE, NUMBERS, StudyError, answer
 from polybed.files import FAULTS, opened, put_text
 from polybed.runner import Door
 
+MARK = ".polybed"  # the lock, too
+
 
 def json_text(found):
     """Raises StudyError if a number is not finite."""
@@ -46,9 +48,6 @@ def draw(path, what, quiet):
     else:
         if not quiet:
             answer("\n".join(map(str, paths)))
-
-
-MARK = ".polybed"  # the lock, too
 
 
 @contextlib.contextmanager
