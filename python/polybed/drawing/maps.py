@@ -39,22 +39,34 @@ def axes_at(figure, left, bottom, width, height):
 
 
 def walls_of(run):
-    """The walls inside the column and the side of a tapered one, (start, end, round): x and y of the ends of a flat one, diameter and height
-    of a round one, m."""
+    """The walls inside the column and the side of a tapered one, (start, end, round, thickness): x and y of the ends of a flat one, diameter
+    and height of a round one, m. The ends of a rod are one point."""
     try:
         case = case_of(run.record)
         side = [[diameter, height] for height, diameter in case.get("column", {}).get("profile", [])]
-        inside = [(wall["from"], wall["to"], wall.get("shape", "flat") != "flat") for wall in case.get("wall", [])]
-        return inside + [(low, high, True) for low, high in zip(side, side[1:])]
+        inside = [(wall["from"], wall.get("to") or wall["from"], wall.get("shape") in ("cylinder", "cone"), float(wall.get("thickness", 0)))
+                  for wall in case.get("wall", [])]
+        return inside + [(low, high, True, 0.0) for low, high in zip(side, side[1:])]
     except DamagedError:
         return []
 
 
+def outline(start, end, thickness, corners=24):
+    """All points within half a thickness of a line: a closed line round them, [[x, y], ...]; the line itself without thickness."""
+    start, end = np.array(start, dtype=float), np.array(end, dtype=float)
+    if not thickness:
+        return np.array([start, end])
+    angles = np.arctan2(*(end - start)[::-1]) + np.linspace(-np.pi / 2, np.pi / 2, corners)
+    half = thickness / 2 * np.column_stack([np.cos(angles), np.sin(angles)])
+    return np.vstack([end + half, start - half, end + half[:1]])
+
+
 def inner_walls(run):
-    """Ends of the lines in which the walls inside the column cut the plane of x and y in its middle, m."""
+    """Lines in which the walls inside the column cut the plane of x and y in its middle, [[x, y], ...] each, m; closed round a thick one."""
     lines, axis = [], 0 if around_axis(run) else run.size[0] / 2
-    for start, end, is_round in walls_of(run):
-        lines += [[(axis + side * point[0] / 2, point[1]) for point in (start, end)] for side in (-1, 1)] if is_round else [(start, end)]
+    for start, end, is_round, thickness in walls_of(run):
+        ends = [[(axis + side * point[0] / 2, point[1]) for point in (start, end)] for side in (-1, 1)] if is_round else [(start, end)]
+        lines += [outline(*pair, thickness) for pair in ends]
     return lines
 
 
@@ -69,8 +81,10 @@ def frame(axes, run, title, top, first):
     axes.set_xlabel(f"{'r' if faces[0] < 0 else 'x'} ({unit})")
     axes.set_ylim(0, top * factor)
     axes.spines[["top", "right"]].set_visible(True)
-    for start, end in inner_walls(run):
-        axes.plot([start[0] * factor, end[0] * factor], [start[1] * factor, end[1] * factor], color="black", linewidth=1)
+    for line in inner_walls(run):
+        if len(line) > 2:
+            axes.fill(*(factor * line.T), color=EMPTY, zorder=2)
+        axes.plot(*(factor * line.T), color="black", linewidth=1)
     if first:
         axes.set_ylabel(f"y ({unit})")
     else:

@@ -3,8 +3,8 @@
 import numpy as np
 
 from polybed.drawing.fields import stored_maps
-from polybed.drawing.maps import walls_of
-from polybed.drawing.style import COLOURS, FEW_SOLIDS, around_axis, as_shown, faces_across, length_unit
+from polybed.drawing.maps import outline, walls_of
+from polybed.drawing.style import COLOURS, FEW_SOLIDS, around_axis, as_shown, faces_across, in_plane, length_unit
 from polybed.drawing.units import fitting
 from polybed.particles import step_shown
 from polybed.read import kinds_among
@@ -160,15 +160,26 @@ def opening_of(run):
     return [circle_in(size, float(width), 0)]
 
 
+def outlines_of_wall(size, start, end, is_round, thickness):
+    """Closed lines round a wall inside the column: round both its ends and along it."""
+    if not is_round and not thickness:
+        return [[[*start, 0], [*end, 0], [*end, size[2]], [*start, size[2]]]]
+    if not is_round:
+        ends = [[[x, y, z] for x, y in outline(start, end, thickness)] for z in (0, size[2])]
+        return ends + [[low, high] for low, high in zip(*(line[::6] for line in ends))]
+    lines, along = [], np.array([end[0] / 2 - start[0] / 2, end[1] - start[1]])
+    across = np.array([along[1], -along[0]]) / np.hypot(*along) * thickness / 2  # of its profile, from the axis outwards
+    for side in (1, -1) if thickness else (1,):
+        ends = [circle_in(size, max(point[0] + 2 * side * across[0], 0), point[1] + side * across[1]) for point in (start, end)]
+        lines += ends + [[low, high] for low, high in zip(*(line[:: ROUND // 8] for line in ends))]
+    return lines
+
+
 def outlines_of(run):
     """Closed lines round the walls inside the column, the opening and the foot of a round column, [[x, y, z], ...] each, m."""
     size, lines = run.particles.size, []
-    for start, end, is_round in walls_of(run):
-        if is_round:
-            ends = [circle_in(size, *point) for point in (start, end)]
-            lines += ends + [[low, high] for low, high in zip(*(line[:: ROUND // 8] for line in ends))]
-        else:
-            lines.append([[*start, 0], [*end, 0], [*end, size[2]], [*start, size[2]]])
+    for wall in walls_of(run):
+        lines += outlines_of_wall(size, *wall)
     if case_of(run.record).get("column", {}).get("shape") == "cylinder":
         lines.append(circle_in(size, size[0], 0))
     return [np.array(line, dtype=float).reshape(-1, 3) for line in lines + opening_of(run)]

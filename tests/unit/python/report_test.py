@@ -199,6 +199,17 @@ class Particles(SampleRun):
         self.assertEqual(slab, [[0, 150, 0], [20, 10, 0], [20, 10, depth], [0, 150, depth]])
         self.assertEqual(slot, [[width / 2 - 5, 0, 0], [width / 2 + 5, 0, 0], [width / 2 + 5, 0, depth], [width / 2 - 5, 0, depth]])
         self.assertGreaterEqual(found["size"][1], 150, "the view shows the wall")
+        rod = '[[wall]]\nshape = "rod"\nfrom = [0.03, 0.05]\nthickness = 0.02\n'
+        add_case(self.directory, case="[column]\nsize = [0.06, 0.2]\n" + rod)
+        lines = data_of(self.page())["particles"]["outlines"]
+        for x, y, z in lines[0] + lines[1]:
+            self.assertAlmostEqual(np.hypot(x - 30, y - 50), 10, places=2)
+        self.assertEqual({z for line in lines[:2] for _, _, z in line}, {0, depth})
+        tube = '[[wall]]\nshape = "cylinder"\nfrom = [0.03, 0.05]\nto = [0.03, 0.1]\nthickness = 0.004\n'
+        add_case(self.directory, case="[column]\nsize = [0.06, 0.06, 0.2]\n" + tube)
+        radii = {round(float(np.hypot(x - width / 2, z - depth / 2)), 2)
+                 for line in data_of(self.page())["particles"]["outlines"] for x, _, z in line}
+        self.assertEqual(radii, {13, 17})
         add_case(self.directory, case="[column]\nsize = [0.06, 0.06, 0.2]\n[dem]\nopening = 0.01\n")
         [hole] = data_of(self.page())["particles"]["outlines"]
         for x, y, z in hole:
