@@ -155,7 +155,8 @@ void weigh_faces(const Grid& grid, FaceField& coefficient) {
   for (int axis = 0; axis < grid.dimensions; ++axis) {
     const Field& open = grid.metric->open[std::size_t(axis)];
     Field& field = coefficient[std::size_t(axis)];
-    for (std::size_t f = 0; f < field.size(); ++f) field[f] *= open[f] > 0 ? open[f] : leak;
+    const auto height = [&](std::size_t f) { return axis == 1 ? 1.0 : 1 / grid.metric->per_height[f]; };
+    for (std::size_t f = 0; f < field.size(); ++f) field[f] *= open[f] > 0 ? open[f] : leak * height(f);
     for (std::size_t f = 0; axis == 1 && grid.layers && f < field.size(); ++f) field[f] *= grid.metric->per_distance[f];
   }
 }
