@@ -17,8 +17,14 @@ namespace polybed::fluid {
 
 /// A velocity that is extrapolated from open faces to faces closed by a sloping wall: flow along the wall keeps its
 /// momentum, although the wall consists of steps. Collective.
+/// \param steps  the closed faces: Metric::steps or Metric::steps_inside
 [[nodiscard]] core::Field slipping(const core::Grid& grid, const Boundaries& boundaries, const core::Field& velocity,
-                                   int axis);
+                                   int axis, const std::array<std::vector<core::Index>, 3>& steps);
+
+/// A velocity for viscous stresses: the steps of walls inside do not rub, their friction is a term of its own.
+/// Collective.
+[[nodiscard]] core::FaceField along_walls_inside(const core::Grid& grid, const Boundaries& boundaries,
+                                                 const core::FaceField& velocity);
 
 /// Sets the acceleration of a phase to its convection on its moving faces, m/s2, and to 0 elsewhere.
 /// \param limited   second order with limited slopes; else first order, upwind
@@ -38,7 +44,8 @@ void convection(const core::Grid& grid, const Boundaries& boundaries, bool limit
     core::Box inside = core::interior_faces(grid, axis);
     if (!of_fluid) inside = boundaries.with_solids(inside);
     const bool tapered = grid.metric && grid.metric->tapered();
-    const core::Field along_wall = tapered ? slipping(grid, boundaries, velocity[a], axis) : core::Field();
+    const core::Field along_wall =
+        tapered ? slipping(grid, boundaries, velocity[a], axis, grid.metric->steps) : core::Field();
     const core::Field& carried = tapered ? along_wall : velocity[a];
     core::with_metric(
         grid, [&](const auto& metric) __attribute__((always_inline)) {

@@ -90,11 +90,8 @@ double viscous_rate(const core::Grid& grid) {
 
 void add_viscous_stress(const core::Grid& grid, const Boundaries& boundaries, const FluidState& fluid,
                         const relevance::FluidConstants& constants, core::FaceField& acceleration) {
-  core::FaceField
-      along_walls;  // on stairs of cells no velocity is rubbed by closed faces: the wall's friction is apart
   const bool inner = grid.metric && grid.metric->walls;
-  for (int axis = 0; inner && axis < grid.dimensions; ++axis)
-    along_walls[std::size_t(axis)] = slipping(grid, boundaries, fluid.velocity[std::size_t(axis)], axis);
+  const core::FaceField along_walls = inner ? along_walls_inside(grid, boundaries, fluid.velocity) : core::FaceField();
   const core::FaceField& velocity = inner ? along_walls : fluid.velocity;
   with_density(fluid, constants.density, [&]<class Density>(const Density& local) {
     core::with_metric(grid, [&]<class Metric>(const Metric& metric) {

@@ -4,6 +4,7 @@
 
 #include "core/numerics/operators.hpp"
 #include "core/vectors.hpp"
+#include "fluid/convection.hpp"
 #include "fluid/face_stress.hpp"
 
 namespace polybed::tfm {
@@ -61,12 +62,27 @@ class Strain {
   std::array<double, 3> per_length_{};
 };
 
+/// The solids' velocity, along walls inside: their steps stop no flow along them.
+class AlongWalls {
+ public:
+  AlongWalls(const core::Grid& grid, const fluid::Boundaries& boundaries, const core::FaceField& velocity)
+      : given_(velocity), inside_(grid.metric && grid.metric->walls) {
+    if (inside_) filled_ = fluid::along_walls_inside(grid, boundaries, velocity);
+  }
+  [[nodiscard]] const core::FaceField& velocity() const { return inside_ ? filled_ : given_; }
+
+ private:
+  const core::FaceField& given_;
+  core::FaceField filled_;
+  bool inside_;
+};
+
 template <std::size_t dimensions, class Metric>
 void strain_rates_in(const Metric& metric, const Constants& constants, const fluid::Boundaries& boundaries,
                      Fields& fields) {
   for (std::size_t j = 0; j < constants.species(); ++j) {
-    const Strain<dimensions, Metric> strain(metric, constants.grid, fields.solids.velocity[j],
-                                            fields.solids.fraction[j]);
+    const AlongWalls along(constants.grid, boundaries, fields.solids.velocity[j]);
+    const Strain<dimensions, Metric> strain(metric, constants.grid, along.velocity(), fields.solids.fraction[j]);
     double* out = fields.stress.strain[j].data();
     core::for_each_row(constants.grid, boundaries.solids_cells(), [&](Index begin, Index end) {
 #pragma GCC ivdep
@@ -81,14 +97,15 @@ void add_viscosity_in(const Metric& metric, const Constants& constants, const fl
   const core::Grid& grid = constants.grid;
   for (std::size_t j = 0; j < constants.species(); ++j) {
     const core::Field& fraction = fields.solids.fraction[j];
+    const AlongWalls along(grid, boundaries, fields.solids.velocity[j]);
     const double *phi = fraction.data(), *viscosity = fields.stress.viscosity.data();
     double* to = weight.data();
     const std::size_t cells = weight.size();
 #pragma GCC ivdep
     for (std::size_t c = 0; c < cells; ++c) to[c] = std::max(phi[c], 0.0) * viscosity[c];
     core::for_each_axis<dimensions>([&](auto axis) __attribute__((always_inline)) {
-      const fluid::FaceStress<dimensions, axis, Metric, fluid::SolidEdge> stress(
-          metric, grid, weight, fields.solids.velocity[j], fluid::SolidEdge(fraction));
+      const fluid::FaceStress<dimensions, axis, Metric, fluid::SolidEdge> stress(metric, grid, weight, along.velocity(),
+                                                                                 fluid::SolidEdge(fraction));
       const Index s = grid.stride(int(axis));
       double* a = fields.solids.acceleration[j][axis].data();
       const double per_density = 1 / constants.density[j], floor = diffusion_floor(constants, j);

@@ -108,11 +108,13 @@ class Cutting {
   }
   [[nodiscard]] double& volume(const Cell& c) const { return layers_[std::size_t(c[1])].volume[at(c)]; }
   /// The low face of a cell along an axis; the cell may be one beyond the last.
-  [[nodiscard]] double& face(const Cell& c, int axis) const { return face_in(layers_, c, axis); }
-  [[nodiscard]] double& face_in(std::vector<CrossSection>& layers, const Cell& c, int axis) const {
-    CrossSection& section = layers[std::size_t(c[1])];
+  [[nodiscard]] double& face(const Cell& c, int axis) const {
+    CrossSection& section = layers_[std::size_t(c[1])];
     if (axis == 1) return section.open_y[at(c)];
     return axis == 0 ? section.x_face(c[0], c[2]) : section.z_face(c[0], c[2]);
+  }
+  [[nodiscard]] static double face_in(const std::vector<CrossSection>& layers, const Cell& c, int axis) {
+    return layers[std::size_t(c[1])].face(axis, c[0], c[2]);
   }
   [[nodiscard]] double& side_face(const Cell& c, int axis, int side) const { return face(next(c, axis, side), axis); }
   [[nodiscard]] double whole(const Cell& c) const { return rings_ ? (2.0 * c[0] + 1) / n_[0] : 1.0; }
@@ -277,8 +279,7 @@ void Cutting::close_what_is_cut_off() {
 
 // The areas of a cell's faces and its walls sum to zero; of the wall's area the part across its normal counts, so that
 // a linear profile is exact beside a plane. Around an axis the radial area of a whole cell is 2/n_x.
-void Cutting::set_friction(const std::vector<CrossSection>& given) {
-  std::vector<CrossSection> before = given;
+void Cutting::set_friction(const std::vector<CrossSection>& before) {
   const double least = 0.1 * *std::min_element(h_.begin(), h_.begin() + axes_);
   for (CrossSection& layer : layers_)
     for (int a = 0; a < axes_; ++a) layer.wall_along[std::size_t(a)].assign(layer.volume.size(), 0.0);
@@ -310,13 +311,15 @@ void Cutting::set_friction(const std::vector<CrossSection>& given) {
 
 }  // namespace
 
-void cut_by_walls(const Grid& column, const InnerWalls& walls, bool rings, std::vector<CrossSection>& layers) {
-  const std::vector<CrossSection> before = layers;
-  Cutting cutting(column, walls, rings, layers);
+std::vector<CrossSection> cut_by_walls(const Grid& column, const InnerWalls& walls, bool rings,
+                                       const std::vector<CrossSection>& layers) {
+  std::vector<CrossSection> cut = layers;
+  Cutting cutting(column, walls, rings, cut);
   cutting.cut();
   cutting.merge_small_cells();
   cutting.close_what_is_cut_off();
-  cutting.set_friction(before);
+  cutting.set_friction(layers);
+  return cut;
 }
 
 }  // namespace polybed::core

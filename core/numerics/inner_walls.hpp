@@ -44,6 +44,7 @@ class InnerWalls {
 /// its volume to the neighbour across its largest face, and its other faces to that neighbour's. Closes all cells that
 /// cannot be reached from the largest connected part. Throws StartError if that part does not reach both ends.
 /// \param layers  as of cross_sections(), one entry a layer and one for the top  \param column  all of it
-void cut_by_walls(const Grid& column, const InnerWalls& walls, bool rings, std::vector<CrossSection>& layers);
+[[nodiscard]] std::vector<CrossSection> cut_by_walls(const Grid& column, const InnerWalls& walls, bool rings,
+                                                     const std::vector<CrossSection>& layers);
 
 }  // namespace polybed::core

@@ -14,7 +14,9 @@ namespace {
 /// Fills the entries of the padded box in the column, and copies its bottom and top rows to the rows beyond.
 class Spreading {
  public:
-  Spreading(const Grid& grid, Metric& metric) : grid_(grid), metric_(metric) {}
+  /// \param uncut  the layers without walls inside
+  Spreading(const Grid& grid, const std::vector<CrossSection>& uncut, Metric& metric)
+      : grid_(grid), uncut_(uncut), metric_(metric) {}
 
   void fill() {
     const int gx = grid_.ghosts(0), gy = grid_.ghosts(1), gz = grid_.ghosts(2);
@@ -62,6 +64,9 @@ class Spreading {
     if (both > 0) metric_.per_volume_on[a][at] = 2 / both;
     if (!(metric_.open[a][at] > 0)) {
       metric_.closed[a].push_back(c);
+      if (i >= 0 && j >= 0 && k >= 0 && i < grid_.cells[0] + (axis == 0 ? 1 : 0) &&
+          j < grid_.cells[1] + (axis == 1 ? 1 : 0) && k < grid_.cells[2] + (axis == 2 ? 1 : 0))
+        add_step(c, axis, i + grid_.before[0], j + grid_.before[1], k + grid_.before[2]);
       return;
     }
     const auto wall = [&](std::size_t cell, int x, int y, int z) {
@@ -79,7 +84,16 @@ class Spreading {
         both;
   }
 
+  /// \param x, y, z  of a closed face in the column
+  void add_step(Index f, int axis, int x, int y, int z) {
+    const auto a = std::size_t(axis), last = uncut_.size() - (axis == 1 ? 1 : 2);
+    const bool inside = metric_.walls && uncut_[std::min(std::size_t(y), last)].face(axis, x, z) > 0;
+    if (inside) metric_.steps_inside[a].push_back(f);
+    if (inside || !metric_.taper.empty()) metric_.steps[a].push_back(f);
+  }
+
   const Grid& grid_;
+  const std::vector<CrossSection>& uncut_;
   Metric& metric_;
 };
 
@@ -98,15 +112,19 @@ CrossSection whole_section(const Grid& column) {
           {}};
 }
 
+/// Without walls inside.
 std::vector<CrossSection> layers_of(const Grid& column, const Metric& metric) {
-  std::vector<CrossSection> layers{whole_section(column)};
-  if (metric.shape != ColumnShape::box) layers = cross_sections(column, metric.around_axis, metric.taper);
-  if (!metric.walls) return layers;
-  if (layers.size() == 1) layers.assign(std::size_t(column.cells[1]) + 1, CrossSection(layers.front()));
+  if (metric.shape == ColumnShape::box) return {whole_section(column)};
+  return cross_sections(column, metric.around_axis, metric.taper);
+}
+
+/// \param uncut  the layers without the walls inside; receives an entry for each layer
+std::vector<CrossSection> layers_between_walls(const Grid& column, const Metric& metric,
+                                               std::vector<CrossSection>& uncut) {
+  if (uncut.size() == 1) uncut.assign(std::size_t(column.cells[1]) + 1, CrossSection(uncut.front()));
   std::array<double, 3> size{};
   for (std::size_t a = 0; a < 3; ++a) size[a] = column.cells[a] * column.spacing[a];
-  cut_by_walls(column, InnerWalls(*metric.walls, size, metric.around_axis), metric.around_axis, layers);
-  return layers;
+  return cut_by_walls(column, InnerWalls(*metric.walls, size, metric.around_axis), metric.around_axis, uncut);
 }
 
 }  // namespace
@@ -120,12 +138,13 @@ std::shared_ptr<const Metric> metric_of(const Grid& grid, ColumnShape shape, con
   metric->around_axis = shape == ColumnShape::axisymmetric;
   metric->taper = taper;
   metric->walls = walls;
-  metric->layers = layers_of(column, *metric);
+  std::vector<CrossSection> uncut = layers_of(column, *metric);
+  metric->layers = walls ? layers_between_walls(column, *metric, uncut) : uncut;
   for (Field* field : {&metric->volume, &metric->per_volume, &metric->per_radius, &metric->per_radius_on,
                        &metric->per_height, &metric->per_distance})
     *field = make_field(grid);
   for (FaceField* field : {&metric->open, &metric->per_volume_on, &metric->wall}) *field = make_face_field(grid);
-  Spreading(grid, *metric).fill();
+  Spreading(grid, uncut, *metric).fill();
   return metric;
 }
 

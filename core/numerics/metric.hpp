@@ -43,6 +43,11 @@ struct CrossSection {
   [[nodiscard]] double& volume_of(int i, int k) { return volume[at(i, k)]; }
   [[nodiscard]] double& x_face(int i, int k) { return open_x[std::size_t(i + (width + 1) * k)]; }
   [[nodiscard]] double& z_face(int i, int k) { return open_z[std::size_t(i + width * k)]; }
+  /// alpha of the low face of a cell along an axis.
+  [[nodiscard]] double face(int axis, int i, int k) const {
+    if (axis == 1) return open_y[at(i, k)];
+    return axis == 0 ? open_x[std::size_t(i + (width + 1) * k)] : open_z[at(i, k)];
+  }
   [[nodiscard]] std::size_t at(int i, int k) const { return std::size_t(i) + std::size_t(width) * std::size_t(k); }
 };
 
@@ -66,6 +71,8 @@ struct Metric {
   Field per_distance;                        ///< of the centres across a face along y, in lowest cells: 2/(a + a)
   bool around_axis = false;                  ///< the low end along x is an axis, without a wall
   std::array<std::vector<Index>, 3> closed;  ///< faces of the padded box without an open part
+  /// Owned closed faces on the steps of walls that do not follow the grid: those of walls inside, and all of them.
+  std::array<std::vector<Index>, 3> steps_inside, steps;
 
   [[nodiscard]] bool tapered() const { return layers.size() > 1; }
   /// Whether a wall cuts cells.

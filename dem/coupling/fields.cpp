@@ -39,7 +39,7 @@ void Coupling::slip(core::FaceField& velocity) const {
   if (!has_sloping_walls()) return;
   for (int axis = 0; axis < grid.dimensions; ++axis) flow_.boundaries().join(velocity[1], axis);
   const core::Field stairs = velocity[1];
-  velocity[1] = fluid::slipping(grid, flow_.boundaries(), stairs, 1);
+  velocity[1] = fluid::slipping(grid, flow_.boundaries(), stairs, 1, grid.metric->steps);
   const core::Taper& taper = grid.metric->taper;
   for (std::size_t n = 1; n < taper.size(); ++n) {
     const int level = int(std::lround(taper[n].first / grid.spacing[1])) - grid.before[1];
