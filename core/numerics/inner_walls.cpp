@@ -1,8 +1,11 @@
 #include "core/numerics/inner_walls.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "core/error.hpp"
 
@@ -10,11 +13,18 @@ namespace polybed::core {
 
 InnerWalls::InnerWalls(std::span<const InnerWall> walls, const std::array<double, 3>& size, bool rings)
     : axis_x_(rings ? 0 : 0.5 * size[0]), axis_z_(0.5 * size[2]), rings_(rings) {
-  for (const InnerWall& wall : walls) {
+  for (std::size_t n = 0; n < walls.size(); ++n) {
+    const InnerWall& wall = walls[n];
     if (!(wall.thickness > 0)) continue;
     const double across = wall.is_round() ? 0.5 : 1.0;  // a round wall gives diameters
-    Part part{across * wall.from[0], wall.from[1],   across * (wall.to[0] - wall.from[0]), wall.to[1] - wall.from[1], 0,
-              0.5 * wall.thickness,  wall.is_round()};
+    Part part{across * wall.from[0],
+              wall.from[1],
+              across * (wall.to[0] - wall.from[0]),
+              wall.to[1] - wall.from[1],
+              0,
+              0.5 * wall.thickness,
+              wall.is_round(),
+              n};
     const double square = part.along_x * part.along_x + part.along_y * part.along_y;
     part.per_square = square > 0 ? 1 / square : 0;
     parts_.push_back(part);
@@ -31,7 +41,8 @@ FromWall InnerWalls::nearest(const std::array<double, 3>& place) const {
     if (length - part.half >= found.distance) continue;
     const double across = length > 0 ? to_x / length : 0, up = length > 0 ? to_y / length : 1;
     const bool turned = part.round && radius > 0;
-    found = {length - part.half, {turned ? across * dx / radius : across, up, turned ? across * dz / radius : 0}};
+    found = {
+        length - part.half, {turned ? across * dx / radius : across, up, turned ? across * dz / radius : 0}, part.wall};
   }
   return found;
 }
@@ -265,16 +276,27 @@ void Cutting::close_what_is_cut_off() {
     greatest = parts;
   });
   std::array<bool, 2> ends{};
-  for_each_cell([&](const Cell& c) {
+  std::optional<std::size_t> hollow;
+  std::vector<bool> from_bottom(std::size_t(parts) + 1);
+  for_each_cell([&](const Cell& c) {  // from the bottom up
+    if (c[1] == 0) from_bottom[std::size_t(part_of(c))] = true;
     if (part_of(c) == greatest) {
       if (c[1] == 0) ends[0] = true;
       if (c[1] == n_[1] - 1) ends[1] = true;
       return;
     }
+    if (!hollow && volume(c) >= whole(c) && !from_bottom[std::size_t(part_of(c))])
+      hollow = walls_.nearest(centre(c)).wall;
     close(c);
   });
   if (!ends[0] || !ends[1])
     throw StartError("[[wall]]: the walls leave no way for the fluid from the bottom to the top: move them apart");
+  if (hollow)
+    throw StartError(
+        fmt::format("[[wall]] number {} encloses a hollow that the fluid cannot reach on these cells: open it by two "
+                    "cells or more, "
+                    "or fill it with a thicker wall",
+                    *hollow + 1));
 }
 
 // The areas of a cell's faces and its walls sum to zero; of the wall's area the part across its normal counts, so that

@@ -15,6 +15,7 @@ namespace polybed::core {
 struct FromWall {
   double distance;
   std::array<double, 3> away;
+  std::size_t wall = 0;  ///< its place in the case, from 0
 };
 
 class InnerWalls {
@@ -31,6 +32,7 @@ class InnerWalls {
   struct Part {
     double x, y, along_x, along_y, per_square, half;
     bool round;
+    std::size_t wall;
   };
   std::vector<Part> parts_;
   double axis_x_, axis_z_;
@@ -42,7 +44,8 @@ class InnerWalls {
 
 /// Cuts the layers of a column: open volumes of cells and open areas of faces. A cell that is less than half open gives
 /// its volume to the neighbour across its largest face, and its other faces to that neighbour's. Closes all cells that
-/// cannot be reached from the largest connected part. Throws StartError if that part does not reach both ends.
+/// cannot be reached from the largest connected part. Throws StartError if that part does not reach both ends, or if
+/// a closed part has a whole cell: particles would find room in it.
 /// \param layers  as of cross_sections(), one entry a layer and one for the top  \param column  all of it
 [[nodiscard]] std::vector<CrossSection> cut_by_walls(const Grid& column, const InnerWalls& walls, bool rings,
                                                      const std::vector<CrossSection>& layers);
