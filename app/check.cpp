@@ -140,9 +140,10 @@ Derived derive(const core::Scene& scene, const tfm::Model& model) {
 }
 
 /// \param weight  of the bed in the fluid, Pa
-std::string weight_text(const core::Scene& scene, double weight) {
-  const char* is = weight < 0 ? "upwards in the fluid" : "in the fluid: the pressure drop of the fluidised bed";
+std::string weight_text(const core::Scene& scene, const BedOfCase& bed, double weight) {
+  std::string is = weight < 0 ? "upwards in the fluid" : "in the fluid: the pressure drop of the fluidised bed";
   if (scene.column.is_tapered()) is = "in the fluid, settled; less once it expands into a wider part";
+  if (bed.lift) is = fmt::format("in the fluid over the bottom; pressure drop between the walls {:.4g} Pa", *bed.lift);
   return fmt::format("{:.4g} Pa {}", std::abs(weight), is);
 }
 
@@ -212,8 +213,6 @@ void print_size_classes(const core::Scene& scene) {
                   record.share[k], record.diameter[k] / sauter);
   }
 }
-
-// ---- the screen
 
 constexpr std::size_t screen = 25;  // lines
 
@@ -362,8 +361,9 @@ void run_check(const RunOptions& options) {
   note_choice(scene, models, derived.notes);
   if (particles) note_costs(scene, derived.notes);
   if (options.details && !options.json) return print_details(scene, derived, need, particles);
-  std::vector<std::string> lines = expectation_lines(scene, bed_of_case(scene));
-  if (derived.weight != 0) lines.push_back(card_line("weight", weight_text(scene, derived.weight)));
+  const BedOfCase bed = bed_of_case(scene);
+  std::vector<std::string> lines = expectation_lines(scene, bed);
+  if (const double w = derived.weight; w != 0) lines.push_back(card_line("weight", weight_text(scene, bed, w)));
   add_continuum(scene, need, lines);
   if (particles) add_particles(scene, *particles, lines);
   for (const std::string& model : models) add_left_out(scene, model, lines);

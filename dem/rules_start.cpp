@@ -86,7 +86,7 @@ Broken shared_with_a_wide_kernel(const Scene& scene) {
   const std::optional<Counted> start = counted_start(scene);
   if (!start || !scene.fluid.present() || scene.dem.fluid_ranks != core::FluidRanks::shared) return {};
   const std::vector<std::int64_t> numbers = particle_numbers(scene, start->materials);
-  const double cell = core::grid_of(scene, nullptr).smallest_spacing();
+  const double cell = core::grid_of(scene.column, nullptr).smallest_spacing();
   return core::broken_if(kernel_of(scene, cell, start->materials.greatest_diameter(),
                                    std::accumulate(numbers.begin(), numbers.end(), std::int64_t(0)))
                              .width > 0);

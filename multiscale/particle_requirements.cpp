@@ -95,6 +95,16 @@ Start start_of(const core::Scene& scene, const dem::Materials& materials) {
 /// Whether the scene's particles move in a solved fluid.
 bool couples(const core::Scene& scene) { return scene.fluid.present() && scene.column.shear_rate == 0; }
 
+/// The step of a run and its limits, without the rest of its requirements.
+dem::StepLimits limits_of(const core::Scene& scene) {
+  const dem::Materials materials(scene);
+  const dem::PairLaws laws = dem::make_pair_laws(scene, materials);
+  core::refuse(dem::start_rules(), scene);
+  const std::vector<dem::Particle> foremost = start_of(scene, materials).foremost;
+  return dem::step_limits(scene, materials, laws,
+                          dem::expected_speeds(scene, materials, dem::box_of(scene), foremost).greatest);
+}
+
 /// Courant number of the fluid over a time: from the inflow, between packed particles, and from the viscous stress.
 double courant_of(const core::Scene& scene, double dt) {
   double inflow = 0;
@@ -116,14 +126,18 @@ constexpr double mega = 1e-6;
 std::optional<FluidNeed> fluid_need(const core::Scene& scene, const dem::Materials& materials, std::int64_t particles,
                                     double dt, double steps) {
   if (!couples(scene)) return {};
-  const core::Grid grid = core::grid_of(scene, nullptr);
+  const core::Grid grid = core::grid_of(scene.column, nullptr);  // walls inside change neither the cells nor their size
   FluidNeed need;
   need.every = scene.dem.fluid_every.value_or(core::most_fluid_every);
   need.step = need.every * dt;
   need.steps = std::floor(steps / need.every);
   need.cells = grid.cell_count();
   need.kernel = dem::kernel_of(scene, grid.smallest_spacing(), materials.greatest_diameter(), particles);
+  // Each cell and its faces have their weights for the particles between walls.
+  constexpr double bytes_of_weights = 4 * 48;
   need.memory = bytes_per_cell * double(need.cells);
+  if (const double walls = bytes_of_walls(scene); walls > 0)
+    need.memory += walls + bytes_of_weights * double(need.cells);
   need.warning = fluid_every_warning(scene, dt);
   need.smearing = dem::smearing_warning(scene, need.kernel.width);
   return need;
@@ -209,10 +223,12 @@ void require_particle_memory(const core::Scene& scene) { require_memory_for(scen
 
 double steps_by(const core::Scene& scene, const std::string& role) {
   if (role == relevance::effects::contact.role) return 1;
-  core::Scene without = scene;
+  core::Scene with = scene;
+  with.walls.clear();  // they hardly change the ratio, and it takes a while to cut cells by them
+  core::Scene without = with;
   without.effects.erase(role);
   try {
-    return particle_requirements_of(without).limits.dt / particle_requirements_of(scene).limits.dt;
+    return limits_of(without).dt / limits_of(with).dt;
   } catch (const core::CaseError&) {
     return 1;
   }
@@ -243,7 +259,7 @@ void choose_fluid_every(core::Scene& scene) {
   if (scene.dem.fluid_every || !couples(scene) || scene.effects.count(relevance::effects::contact.role) == 0) return;
   constexpr double sound = 0.5;  // Courant number
   try {
-    const double each = courant_of(scene, particle_requirements_of(scene).limits.dt);
+    const double each = courant_of(scene, limits_of(scene).dt);
     scene.dem.fluid_every = std::clamp(int(sound / std::max(each, 1e-9)), 1, core::most_fluid_every);
   } catch (const core::CaseError&) {
     // The particle model reports why it cannot build this scene when it runs.

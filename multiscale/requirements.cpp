@@ -170,7 +170,7 @@ MemoryNeed memory_need(const core::Scene& scene, const tfm::Model& part, const S
   constexpr double beyond = 1.1, output = 12e6;
   const double grown = std::max(0.0, large.peak - small.peak) / std::max(own - double(small.cells), 1.0);
   need.state = state * cells / own;
-  need.fields = fields * padded_cells(grid, scene.column.cells) / double(grid.padded_size());
+  need.fields = fields * padded_cells(grid, scene.column.cells) / double(grid.padded_size()) + bytes_of_walls(scene);
   need.solver = std::max(0.0, beyond * grown - (state + fields) / own) * cells;
   need.program = std::max(0.0, small.peak - grown * double(small.cells)) + output;
   return need;
@@ -256,6 +256,13 @@ std::string walls_text(const core::Scene& scene) {
 }
 
 }  // namespace
+
+double bytes_of_walls(const core::Scene& scene) {
+  if (!scene.fluid.present() || scene.walls.empty()) return 0;
+  // The fields of core::Metric and a velocity along the walls; its layers, cut and uncut, for the whole column.
+  const double axes = scene.column.dimensions, fields = 6 + 4 * axes, layers = 4 + 3 * axes;
+  return double(sizeof(double)) * (fields + layers) * double(cell_count(scene));
+}
 
 core::Scene narrow_part(const core::Scene& scene, std::size_t most_cells) {
   core::Scene part = scene;

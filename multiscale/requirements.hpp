@@ -21,6 +21,10 @@ struct MemoryNeed {
   [[nodiscard]] double total() const { return state + fields + solver + program; }
 };
 
+/// Memory for walls inside a column, which the sample leaves out, bytes; 0 without any in the fluid. Measured on runs
+/// with walls.
+[[nodiscard]] double bytes_of_walls(const core::Scene& scene);
+
 /// Duration of step timing, on a part of a bed before a run and on the run itself, CPU s.
 inline constexpr double sample_seconds = 0.25;
 

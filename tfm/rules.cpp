@@ -62,7 +62,7 @@ core::Rule for_particles(std::vector<std::string> keys, const std::string& what,
 /// Species that are fed on every face of the top, so that none can leave through it.
 Broken outlet_fed_shut(const Scene& scene) {
   Broken broken;
-  if (scene.column.outlet != core::Outlet::open || scene.column.closed) return broken;
+  if (scene.column.outlet != core::Outlet::open || scene.column.closed || scene.feeds.empty()) return broken;
   const core::Grid grid = core::grid_of(scene, nullptr);
   std::map<std::string, std::vector<double>> fed;  // on each face, by species
   for (std::size_t n = 0; n < scene.feeds.size(); ++n) {
@@ -82,7 +82,7 @@ Broken outlet_fed_shut(const Scene& scene) {
 Broken on_closed_cells(const Scene& scene) {
   Broken broken;
   if ((!scene.column.is_round() && !scene.column.is_tapered()) || scene.column.closed) return broken;
-  const core::Grid grid = core::grid_of(scene, nullptr);
+  const core::Grid grid = core::grid_of(scene.column, nullptr);
   const auto see = [&](const auto& parts, const char* what) {
     for (std::size_t n = 0; n < parts.size(); ++n) {
       const std::vector<double> share = fluid::face_shares(grid, parts[n].from, parts[n].to, parts[n].at);
@@ -99,7 +99,7 @@ Broken on_closed_cells(const Scene& scene) {
 /// A discharge and a feed through one face of a cell, where the solids have only one velocity.
 Broken discharge_beside_a_feed(const Scene& scene) {
   Broken broken;
-  const core::Grid grid = core::grid_of(scene, nullptr);
+  const core::Grid grid = core::grid_of(scene.column, nullptr);
   const auto shares = [&](const auto& part) { return fluid::face_shares(grid, part.from, part.to, part.at); };
   for (std::size_t n = 0; n < scene.discharges.size(); ++n)
     for (std::size_t k = 0; k < scene.feeds.size(); ++k) {

@@ -33,11 +33,12 @@ InnerWalls::InnerWalls(std::span<const InnerWall> walls, const std::array<double
 
 FromWall InnerWalls::nearest(const std::array<double, 3>& place) const {
   FromWall found{std::numeric_limits<double>::infinity(), {0, 1, 0}};
-  const double dx = place[0] - axis_x_, dz = rings_ ? 0 : place[2] - axis_z_, radius = std::hypot(dx, dz);
+  const double dx = place[0] - axis_x_, dz = rings_ ? 0 : place[2] - axis_z_, radius = std::sqrt(dx * dx + dz * dz);
   for (const Part& part : parts_) {
     const double x = (part.round ? radius : place[0]) - part.x, y = place[1] - part.y;
     const double share = std::clamp((x * part.along_x + y * part.along_y) * part.per_square, 0.0, 1.0);
-    const double to_x = x - share * part.along_x, to_y = y - share * part.along_y, length = std::hypot(to_x, to_y);
+    const double to_x = x - share * part.along_x, to_y = y - share * part.along_y,
+                 length = std::sqrt(to_x * to_x + to_y * to_y);
     if (length - part.half >= found.distance) continue;
     const double across = length > 0 ? to_x / length : 0, up = length > 0 ? to_y / length : 1;
     const bool turned = part.round && radius > 0;
@@ -78,7 +79,8 @@ double share_beyond(double distance, const std::array<double, 3>& along, const s
         above -= kept[n];
         sign = -sign;
       }
-    if (above > 0) volume += sign * std::pow(above, double(count));
+    for (std::size_t n = 0; above > 0 && n < count; ++n) sign *= above;
+    if (above > 0) volume += sign;
   }
   return std::clamp(volume / scale, 0.0, 1.0);
 }
@@ -87,7 +89,7 @@ namespace {
 
 /// A cell that is less open is merged with its neighbour, as in round columns; faces that are less open are closed.
 constexpr double least_cell = 0.5, least_face = 0.02;
-constexpr int parts_along = 8;  ///< of a cut cell or face, each cut by a plane
+constexpr int halvings = 3;  ///< of a cut cell or face along each axis, into parts that are each cut by a plane
 
 using Cell = std::array<int, 3>;
 using Place = std::array<double, 3>;
@@ -133,6 +135,7 @@ class Cutting {
     return {(c[0] + 0.5) * h_[0], (c[1] + 0.5) * h_[1], (c[2] + 0.5) * h_[2]};
   }
   [[nodiscard]] double open_share(const Place& middle, const Place& widths) const;
+  [[nodiscard]] double open_part(const Place& middle, const Place& widths, int halvings) const;
   void absorb(const Cell& c);
   [[nodiscard]] std::size_t number(const Cell& c) const {
     return at(c) + std::size_t(n_[0]) * std::size_t(n_[2]) * std::size_t(c[1]);
@@ -169,31 +172,37 @@ class Cutting {
 
 /// Open share of a box or, with one width of 0, of a face; in rings weighted with the radius.
 double Cutting::open_share(const Place& middle, const Place& widths) const {
-  const double half = 0.5 * std::hypot(widths[0], widths[1], axes_ == 3 ? widths[2] : 0);
-  const double distance = walls_.nearest(middle).distance;
-  if (distance >= half) return 1;
-  if (distance <= -half) return 0;
-  Cell parts;
-  Place width;
-  for (std::size_t a = 0; a < 3; ++a) {
-    parts[a] = widths[a] > 0 && int(a) < axes_ ? parts_along : 1;
-    width[a] = int(a) < axes_ ? widths[a] / parts[a] : 0;
-  }
-  double open = 0, all = 0;
-  Cell n;
-  for (n[2] = 0; n[2] < parts[2]; ++n[2])
-    for (n[1] = 0; n[1] < parts[1]; ++n[1])
-      for (n[0] = 0; n[0] < parts[0]; ++n[0]) {
-        Place place = middle;
-        for (std::size_t a = 0; a < 3; ++a) place[a] += (n[a] + 0.5 * (1 - parts[a])) * width[a];
-        const FromWall wall = walls_.nearest(place);
-        const double weight = rings_ && widths[0] > 0 ? place[0] : 1;
-        open += weight * share_beyond(wall.distance, wall.away, width);
-        all += weight;
-      }
-  const double share = open / all;
+  Place width = widths;
+  for (std::size_t a = std::size_t(axes_); a < 3; ++a) width[a] = 0;
+  const double share = open_part(middle, width, halvings) / (rings_ && widths[0] > 0 ? middle[0] : 1);
   constexpr double round_off = 1e-9;
   return share < round_off ? 0 : (share > 1 - round_off ? 1 : share);
+}
+
+/// The same times the radius of the middle of a cell in rings.
+double Cutting::open_part(const Place& middle, const Place& widths, int left) const {
+  const FromWall wall = walls_.nearest(middle);
+  const double weight = rings_ && widths[0] > 0 ? middle[0] : 1;
+  const double half = 0.5 * std::sqrt(widths[0] * widths[0] + widths[1] * widths[1] + widths[2] * widths[2]);
+  if (wall.distance >= half) return weight;
+  if (wall.distance <= -half) return 0;
+  if (left == 0) return weight * share_beyond(wall.distance, wall.away, widths);
+  const Place part{0.5 * widths[0], 0.5 * widths[1], 0.5 * widths[2]};
+  double open = 0;
+  int parts = 0;
+  for (int n = 0; n < 8; ++n) {
+    Place at = middle;
+    bool there = true;
+    for (std::size_t a = 0; a < 3; ++a) {
+      const int side = n >> a & 1;
+      at[a] += (side - 0.5) * part[a];
+      there = there && (side == 0 || widths[a] > 0);
+    }
+    if (!there) continue;
+    open += open_part(at, part, left - 1);
+    ++parts;
+  }
+  return open / parts;
 }
 
 void Cutting::cut() {

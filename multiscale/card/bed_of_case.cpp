@@ -14,6 +14,7 @@
 #include "closures/terminal_velocity.hpp"
 #include "core/case/layers.hpp"
 #include "measures/table.hpp"
+#include "multiscale/card/slices.hpp"
 #include "relevance/advised_drag.hpp"
 #include "relevance/drag_law.hpp"
 #include "relevance/fluid_properties.hpp"
@@ -94,29 +95,15 @@ struct Balance {
     return closures::minimum_fluidisation(bed.diameter, bed.excess, bed.fluid_density, bed.viscosity, bed.gravity);
   }
   /// \param solids  volume over the area of the bottom, m
-  [[nodiscard]] std::optional<double> height(const core::Column& column, const CarriedBed& bed, double velocity,
+  [[nodiscard]] std::optional<Filled> height(const Slices& slices, const CarriedBed& bed, double velocity,
                                              double solids) const {
     if (!known() || !(solids > 0)) return {};
-    if (column.is_tapered()) return height_in_taper(column, bed, velocity, solids);
-    const double voidage = closures::carried_voidage(drag(), bed, velocity, packed);
-    return voidage < 1 ? std::optional(solids / (1 - voidage)) : std::nullopt;
-  }
-
- private:
-  /// Height of a bed that expands in each slice of the column by the velocity there; above its top the column continues
-  /// with the width of the top. Nothing if it would be four times as high.
-  [[nodiscard]] std::optional<double> height_in_taper(const core::Column& column, const CarriedBed& bed,
-                                                      double velocity, double solids) const {
-    constexpr int slices = 200;
-    const double slice = column.size[1] / slices;
-    for (int n = 0; n < 4 * slices; ++n) {
-      const double even = column.even_height((n + 1) * slice) - column.even_height(n * slice);
-      const double voidage = closures::carried_voidage(drag(), bed, velocity * slice / even, packed);
-      const double here = std::max(1 - voidage, 0.0) * even;
-      if (here > 0 && solids <= here) return slice * (n + solids / here);
-      solids -= here;
-    }
-    return std::nullopt;
+    const auto fraction_at = [&](double u) { return 1 - closures::carried_voidage(drag(), bed, u, packed); };
+    if (!slices.empty())
+      return fill(slices, solids,
+                  [&](std::size_t n) { return fraction_at(velocity * slices.height[n] / slices.even[n]); });
+    const double fraction = fraction_at(velocity);
+    return fraction > 0 ? std::optional(Filled{solids / fraction, solids}) : std::nullopt;
   }
 };
 
@@ -154,7 +141,7 @@ std::optional<double> rising_time(const BedOfCase& bed, double settled, double t
 }
 
 /// Predicts the whole bed at the velocity of its inlet. \param share  of each species
-void expect(const core::Scene& scene, const Balance& balance, std::vector<double> share,
+void expect(const core::Scene& scene, const Slices& slices, const Balance& balance, std::vector<double> share,
             const relevance::FluidConstants& fluid, double gravity, BedOfCase& bed) {
   using enum Fluidisation;
   const double velocity = *bed.velocity;
@@ -172,8 +159,14 @@ void expect(const core::Scene& scene, const Balance& balance, std::vector<double
   }
   const CarriedBed bed_of_those = mixture_of(scene, share, fluid, gravity);
   const double solids = stays * scene.column.even_height(scene.bed.static_height) * scene.bed.solids_fraction;
-  const auto height_by = [&](const Balance& one) { return one.height(scene.column, bed_of_those, velocity, solids); };
+  const auto fill_by = [&](const Balance& one) { return one.height(slices, bed_of_those, velocity, solids); };
+  const auto height_by = [&](const Balance& one) {
+    const std::optional<Filled> filled = fill_by(one);
+    return filled ? std::optional(filled->height) : std::nullopt;
+  };
   bed.own.height = height_by(balance);
+  if (const auto filled = fill_by(balance); filled && slices.between_walls && bed.state == fluidised)
+    bed.lift = filled->solids * bed_of_those.excess * gravity;
   Balance other = balance;
   for (ByLaw& one : bed.others) {
     other.law = relevance::with_shape(relevance::drag_law_named(one.law), scene);
@@ -181,7 +174,7 @@ void expect(const core::Scene& scene, const Balance& balance, std::vector<double
   }
   const bool bubbles = fluid.density < relevance::lightest_liquid;
   const bool packed_start = scene.bed.start_solids_fraction == scene.bed.solids_fraction;
-  if (!bubbles && packed_start && bed.leaving.empty() && !scene.column.is_tapered())
+  if (!bubbles && packed_start && bed.leaving.empty() && slices.empty())
     bed.rising_time = rising_time(bed, solids / (1 - balance.packed), scene.column.size[1]);
 }
 
@@ -252,9 +245,22 @@ void add_spread(const Balance& balance, const CarriedBed& mixture, BedOfCase& be
       bed.by_packing.emplace_back(solids, *velocity);
 }
 
+/// Height of the settled bed, m; with layers the top of the highest, each at its own solids fraction.
+double settled_height(const core::Scene& scene, const Slices& slices) {
+  if (slices.between_walls) {
+    const auto bed = fill(slices, scene.column.even_height(scene.bed.static_height), [](std::size_t) { return 1.0; });
+    return bed ? bed->height : scene.bed.static_height;
+  }
+  if (scene.layers.empty()) return scene.bed.static_height;
+  std::vector<double> height;
+  for (const core::Layer& layer : scene.layers) height.push_back(layer.height);
+  return core::top_of(core::stacked(core::start_parts(scene), height));
+}
+
 /// Everything except the velocities of an expansion and the other formulas of the shape.
-BedOfCase bed_without_expansion(const core::Scene& scene) {
+BedOfCase bed_without_expansion(const core::Scene& scene, const Slices& slices) {
   BedOfCase bed;
+  bed.settled = settled_height(scene, slices);
   bed.masses = masses_of(scene);
   if (scene.places.has("inlet.flow_rate")) bed.area = scene.column.cross_section();
   const double gravity = scene.column.gravity * std::max(0.0, -scene.column.down[1]);
@@ -298,16 +304,17 @@ BedOfCase bed_without_expansion(const core::Scene& scene) {
     }
     bed.validity = validity_of(scene, gas);
   }
-  expect(scene, balance, share, fluid, gravity, bed);
+  expect(scene, slices, balance, share, fluid, gravity, bed);
   return bed;
 }
 
 /// The velocity at which a law in `bed.others` predicts the height; nothing if a species leaves the column before.
-std::optional<double> velocity_for(core::Scene scene, const BedOfCase& bed, std::size_t law, double height) {
+std::optional<double> velocity_for(core::Scene scene, const Slices& slices, const BedOfCase& bed, std::size_t law,
+                                   double height) {
   constexpr double greatest = 100, step = 1.05;  // in units of u_mf, at which no bed expands this far
   const auto reaches = [&](double velocity) -> std::optional<bool> {
     scene.inlet.superficial_velocity = {{0.0, velocity}};
-    const BedOfCase moved = bed_without_expansion(scene);
+    const BedOfCase moved = bed_without_expansion(scene, slices);
     const std::optional<double>& found = moved.others[law].height;
     return found && moved.leaving.empty() ? std::optional(*found >= height) : std::nullopt;
   };
@@ -326,18 +333,17 @@ std::optional<double> velocity_for(core::Scene scene, const BedOfCase& bed, std:
   return {};
 }
 
-void add_expansion(const core::Scene& scene, BedOfCase& bed) {
+void add_expansion(const core::Scene& scene, const Slices& slices, BedOfCase& bed) {
   const bool gas = !bed.species.empty() && !bed.species.front().geldart.empty();
   const bool side_by_side = std::any_of(scene.layers.begin(), scene.layers.end(),
                                         [](const core::Layer& layer) { return !layer.from.empty(); });
   if (gas || !bed.own.height || scene.column.is_tapered() || !scene.jets.empty() || side_by_side) return;
-  const double settled = settled_height(scene);
   for (const double share : {0.1, 0.3, 0.5}) {
     ExpansionAt found{share, std::numeric_limits<double>::max(), 0};
     for (std::size_t law = 0; law < bed.others.size(); ++law) {
-      const double height = (1 + share) * settled;
+      const double height = (1 + share) * bed.settled;
       const std::optional<double> velocity = height < scene.column.size[1] && bed.others[law].minimum_fluidisation
-                                                 ? velocity_for(scene, bed, law, height)
+                                                 ? velocity_for(scene, slices, bed, law, height)
                                                  : std::nullopt;
       if (!velocity) return;
       found.least = std::min(found.least, *velocity);
@@ -378,20 +384,14 @@ std::string geldart_class(double diameter, double excess) {
   return density * d * d > 1e6 ? "D" : "B";
 }
 
-double settled_height(const core::Scene& scene) {
-  if (scene.layers.empty()) return scene.bed.static_height;
-  std::vector<double> height;
-  for (const core::Layer& layer : scene.layers) height.push_back(layer.height);
-  return core::top_of(core::stacked(core::start_parts(scene), height));
-}
-
 BedOfCase bed_of_case(const core::Scene& scene) {
-  BedOfCase bed = bed_without_expansion(scene);
-  add_expansion(scene, bed);
+  const Slices slices = slices_of(scene);
+  BedOfCase bed = bed_without_expansion(scene, slices);
+  add_expansion(scene, slices, bed);
   for (const std::string& shape : relevance::other_shapes(scene)) {
     core::Scene other = scene;
     other.effects["shape"] = shape;
-    const BedOfCase found = bed_without_expansion(other);
+    const BedOfCase found = bed_without_expansion(other, slices);
     bed.shapes.push_back({shape, found.own.minimum_fluidisation, found.own.height});
   }
   return bed;

@@ -63,6 +63,8 @@ struct BedOfCase {
   std::vector<std::pair<std::string, double>> masses;  ///< kg at the start; size classes count as one
   double area = 0;                                     ///< m2, of the inlet of a case that gives its flow rate
   std::optional<double> velocity;                      ///< superficial, mean over the bottom at the end of the run, m/s
+  double settled = 0;                                  ///< m, height of the settled bed, higher between walls inside
+  std::optional<double> lift;                          ///< Pa, pressure drop expected between walls inside, fluidised
   Fluidisation state{};                                ///< predicted
   std::vector<std::string> leaving;                    ///< species that the fluid lifts out of a bed of the others
   std::vector<ExpansionAt> expansion;          ///< of a bed in a liquid, as far as the height of the column allows
@@ -77,9 +79,6 @@ struct BedOfCase {
 /// Schiller and Naumann. The height is for the species that stay. Runs nothing. Throws core::CaseError for an unknown
 /// fluid.
 [[nodiscard]] BedOfCase bed_of_case(const core::Scene& scene);
-
-/// Height of the settled bed, m; with layers the top of the highest, each at its own solids fraction.
-[[nodiscard]] double settled_height(const core::Scene& scene);
 
 /// Geldart's class (Powder Technology 7 (1973) 285) by his lines, rho_s - rho_f in g/cm3 and d in um: D above (rho_s -
 /// rho_f) d^2 = 1e6, A below (rho_s - rho_f) d = 225, B between. He gives no formula for C: below 30 um, as on his

@@ -224,7 +224,7 @@ void write_expected(core::Json& json, const core::Scene& scene, const BedOfCase&
       {"state", core::text_or_null(name_of(bed.state))},
       {"law", core::text_or_null(bed.own.law)},
       {"bed_height_m", core::or_null(bed.own.height)},
-      {"settled_height_m", settled_height(scene)},
+      {"settled_height_m", bed.settled},
       {"expansion", expansion},
       {"mass_kg", json_or_null({bed.masses.begin(), bed.masses.end()})},
       {"u_mf_by_packing", packings},
@@ -245,7 +245,7 @@ std::vector<std::string> expectation_lines(const core::Scene& scene, const BedOf
     if (bed.own.height) {
       text += *bed.own.height < top ? fmt::format(", about {:.0f} mm high by {}", 1e3 * *bed.own.height, bed.own.law)
                                     : ", up to the top of the column by " + bed.own.law;
-      text += fmt::format(" (settled {:.0f} mm, column {:.0f} mm)", 1e3 * settled_height(scene), 1e3 * top);
+      text += fmt::format(" (settled {:.0f} mm, column {:.0f} mm)", 1e3 * bed.settled, 1e3 * top);
     }
     if (!bed.leaving.empty())
       text += fmt::format("; lifted {}: {}", scene.column.outlet == core::Outlet::open ? "out" : "to the top",

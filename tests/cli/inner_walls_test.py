@@ -1,5 +1,8 @@
 #!/usr/bin/python3
 """A hopper with inclined sides: it empties, where a flat bottom keeps a heap on either side. Usage: inner_walls_test.py PROGRAM"""
+import re
+from pathlib import Path
+
 import h5py
 import numpy as np
 
@@ -86,6 +89,28 @@ class Hopper(Scratch):
         wet = BED.replace('name = "none"', 'name = "water"\ntemperature = "20 degC"') + SIDES
         told = self.ends(WRONG_CASE, "dem", self.write("wet.toml", wet), "-o", self.folder / "wet").stderr
         self.assertIn("[[wall]] number 1 is 0 m thick, in the fluid it needs 0.00683 m or more", told)
+
+    def test_the_expected_bed_stands_between_them(self):
+        """A rod of 7.5 mm within a settled bed of 40 mm lifts its top by the rod's area over the width. The mass is that of the cross-section, so the
+        pressure drop exceeds the weight by as much as the height of a bed that hardly expands."""
+        bank = Path(__file__).resolve().parents[2] / "cases/tube-bank/case.toml"
+        rod = 'wall=[{from=[0.0125, 0.02], shape="rod", thickness=0.0075}]'
+        told = self.ends(DONE, "check", bank, "--set", rod)
+        expected = strict_json(self.ends(DONE, "check", bank, "--json", "--set", rod).stdout)["expected"]
+        lifted = np.pi / 4 * 0.0075**2 / 0.05
+        self.assertAlmostEqual(expected["settled_height_m"], 0.04 + lifted, delta=2e-3 * lifted)  # the curvature within parts of cells
+        self.assertGreater(expected["bed_height_m"], expected["settled_height_m"])
+        weight, drop = (float(found) for found in re.search(r"weight +([\d.]+) Pa .* between the walls ([\d.]+) Pa", told.stdout).groups())
+        self.assertGreater(drop / weight, 1)
+        self.assertLess(drop / weight, 1 + 2 * lifted / 0.04)
+
+    def test_a_hollow_is_refused(self):
+        bank = Path(__file__).resolve().parents[2] / "cases/tube-bank/case.toml"
+        sides = ([0.01, 0.01], [0.04, 0.01], [0.04, 0.04], [0.01, 0.04], [0.01, 0.01])
+        walls = "wall=[" + ", ".join(f"{{from={a}, to={b}, thickness=0.004}}" for a, b in zip(sides, sides[1:])) + "]"
+        for command in ("check", "tfm", "dem"):
+            words = [] if command == "check" else ["-o", self.folder / command]
+            self.assertIn("encloses a hollow", self.ends(WRONG_CASE, command, bank, "--set", walls, *words).stderr)
 
     def test_the_resolved_case_keeps_them(self):
         resolved = strict_json(self.ends(DONE, "check", self.write("a.toml", BED + SIDES), "--json").stdout)["case"]

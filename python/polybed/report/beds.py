@@ -4,7 +4,7 @@ import numpy as np
 
 from polybed.drawing.fields import stored_maps
 from polybed.drawing.maps import outline, walls_of
-from polybed.drawing.style import COLOURS, FEW_SOLIDS, around_axis, as_shown, faces_across, in_plane, length_unit
+from polybed.drawing.style import COLOURS, FEW_SOLIDS, around_axis, as_shown, faces_across, length_unit
 from polybed.drawing.units import fitting
 from polybed.particles import step_shown
 from polybed.read import kinds_among
