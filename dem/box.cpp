@@ -11,9 +11,31 @@ constexpr int bands_of_cone = 16;
 /// Whether a point lies on a plate, to rounding.
 bool lies_on(const Plate& plate, const InPlane& point) {
   const InPlane away = plate.from_middle(point);
-  const double size = plate.per_square > 0 ? 1 / plate.per_square : plate.half * plate.half;  // a rod has no length
-  return away[0] * away[0] + away[1] * away[1] < 1e-18 * size;
+  return (away[0] * away[0] + away[1] * away[1]) * plate.per_square < 1e-18;
 }
+
+/// Distance of the surfaces of two plates, in their plane; below 0 if they overlap.
+double distance_between(const Plate& one, const Plate& other) {
+  const auto side = [](const Plate& plate, double x, double y) {
+    return plate.along_x * (y - plate.y) - plate.along_y * (x - plate.x);
+  };
+  const auto crosses = [&](const Plate& a, const Plate& b) {
+    return side(a, b.x, b.y) * side(a, b.x + b.along_x, b.y + b.along_y) < 0;
+  };
+  double least = crosses(one, other) && crosses(other, one) ? 0 : std::numeric_limits<double>::infinity();
+  const auto see = [&](const Plate& plate, double x, double y) {
+    const InPlane away = plate.from_middle({x, y});
+    least = std::min(least, std::sqrt(away[0] * away[0] + away[1] * away[1]));
+  };
+  see(one, other.x, other.y);
+  see(one, other.x + other.along_x, other.y + other.along_y);
+  see(other, one.x, one.y);
+  see(other, one.x + one.along_x, one.y + one.along_y);
+  return least - one.half - other.half;
+}
+
+/// Lengths up to this share of a wall's thickness are round-off.
+constexpr double round_off = 1e-9;
 
 }  // namespace
 
@@ -49,7 +71,10 @@ bool Box::within_side(const Place& sphere) const {
 int Box::joined(const Plate& plate) {
   const auto join = [this](int a, int b) {
     const Plate &one = plates[std::size_t(a)], &other = plates[std::size_t(b)];
-    if (one.half != other.half) return;  // the thicker one stands out beside the other
+    if (const double half = one.half + other.half; half > 0) {
+      if (distance_between(one, other) < round_off * half) overlaps.push_back({a, b});
+      return;
+    }
     const InPlane first{one.x, one.y}, second{one.x + one.along_x, one.y + one.along_y};
     if (lies_on(other, first)) joints.push_back({a, Plate::Part::first_edge, b, other.nearest(first)});
     if (lies_on(other, second)) joints.push_back({a, Plate::Part::second_edge, b, other.nearest(second)});
@@ -180,9 +205,25 @@ void Box::make_bottom_a_plate() {
     if (wall.plate < 0 && wall.is_bottom()) wall.plate = plate;
 }
 
+/// Whether the point of a plate's surface nearest to a point outside lies in another plate, or on it: then the nearer
+/// of both plates pushes, of two alike the one with the lower number.
+bool Box::is_covered(int plate, const InPlane& point) const {
+  const Plate& one = plates[std::size_t(plate)];
+  const InPlane away = one.to(point), on_surface{point[0] - away[0], point[1] - away[1]};
+  return std::any_of(overlaps.begin(), overlaps.end(), [&](const std::array<int, 2>& pair) {
+    if (pair[0] != plate) return false;
+    const Plate& other = plates[std::size_t(pair[1])];
+    const double length = round_off * (one.half + other.half), inside = other.gap(on_surface);
+    if (inside > length) return false;
+    const double nearer = one.gap(point) - other.gap(point);
+    return inside < -length || nearer > length || pair[1] < plate;
+  });
+}
+
 bool Box::pushes(int plate, const Vector& centre) const {
   const Plate& one = plates[std::size_t(plate)];
   const InPlane point = one.in_plane(centre);  // the same for all plates that it joins
+  if (!overlaps.empty() && is_covered(plate, point)) return false;
   const Plate::Part part = one.nearest(point);
   if (part == Plate::Part::face) return true;
   for (const Joint& joint : joints) {

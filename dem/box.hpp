@@ -126,9 +126,10 @@ struct Wall {
 struct Box {
   Vector size{};  ///< along x, y (up), z, m
   std::array<bool, 3> periodic{};
-  std::vector<Wall> walls;         ///< whole faces, except periodic and open ones; then plates
-  std::vector<Plate> plates;       ///< inside; flat or round ones, and the side of a round box
-  std::vector<Joint> joints;       ///< between the plates
+  std::vector<Wall> walls;                   ///< whole faces, except periodic and open ones; then plates
+  std::vector<Plate> plates;                 ///< inside; flat or round ones, and the side of a round box
+  std::vector<Joint> joints;                 ///< between the plates without thickness
+  std::vector<std::array<int, 2>> overlaps;  ///< two plates that touch, one of them thick, in both orders
   std::vector<double> curvatures;  ///< of contacts with round plates, 1/m: above 0 from inside, below 0 from outside
   bool round = false;              ///< its cross-section is the circle within its width and depth
   TaperedSide side;                ///< for a round box whose diameter changes
@@ -162,8 +163,9 @@ struct Box {
   void make_bottom_a_plate();
   /// Whether a plate pushes a centre near it. It does not push with an edge if the centre is nearer to the face of the
   /// plate joined there; of two plates with the same nearest edge, the one with the lower number pushes. Plates that
-  /// continue each other thus push once.
+  /// continue each other thus push once. A thick plate does not push where another one covers its surface.
   [[nodiscard]] bool pushes(int plate, const Vector& centre) const;
+  [[nodiscard]] bool has_joints() const { return !joints.empty() || !overlaps.empty(); }
 
   /// Added to x and v_x of a particle's image one box higher, at a time, m and m/s. The first within +-L/2.
   [[nodiscard]] double image_shift(double time) const {
@@ -177,6 +179,7 @@ struct Box {
   [[nodiscard]] Vector beside(const Opening& opening, Vector centre) const;
   /// Adds a plate and its joints; returns its number.
   int joined(const Plate& plate);
+  [[nodiscard]] bool is_covered(int plate, const InPlane& point) const;
   [[nodiscard]] Plate about_axis(const InPlane& from, const InPlane& to) const;
 };
 

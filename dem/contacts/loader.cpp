@@ -174,8 +174,7 @@ std::optional<Vector> ContactLoader::from_nearest(std::int32_t wall, const Vecto
 
 double ContactLoader::distance_from(std::int32_t wall, const Place& place) const {
   const int plate = box_.walls[std::size_t(wall)].plate, axis = box_.walls[std::size_t(wall)].axis;
-  if (plate >= 0 && !box_.joints.empty() && !box_.pushes(plate, place.x))
-    return std::numeric_limits<double>::infinity();
+  if (plate >= 0 && box_.has_joints() && !box_.pushes(plate, place.x)) return std::numeric_limits<double>::infinity();
   const std::optional<Vector> from = from_nearest(wall, place.x);
   if (!from) return height_over(wall, place);
   if (plate < 0 && box_.rim_is_edge(axis, place.x, *from)) return std::numeric_limits<double>::infinity();

@@ -243,6 +243,48 @@ TEST(Box, EqualRodsAndPlatesApartAllPush) {
   EXPECT_NEAR(box.plates[1].gap({0.7, 0.52}), -0.03, 1e-15);  // inside
 }
 
+/// How often thick plates push a centre with one point, or with a point inside another plate; the nearest has to push.
+void expect_once_from_outside(const Box& box, const InPlane& point) {
+  for (const Plate& plate : box.plates)
+    if (!(plate.gap(point) > 1e-3)) return;
+  std::vector<InPlane> pushing;
+  double of_all = 1e9, of_pushing = 1e9;
+  for (std::size_t p = 0; p < box.plates.size(); ++p) {
+    const InPlane to = box.plates[p].to(point), at{point[0] - to[0], point[1] - to[1]};
+    of_all = std::min(of_all, std::hypot(to[0], to[1]));
+    if (!box.pushes(int(p), {point[0], point[1], 0})) continue;
+    of_pushing = std::min(of_pushing, std::hypot(to[0], to[1]));
+    for (const Plate& other : box.plates) EXPECT_GT(other.gap(at), -1e-9) << point[0] << ' ' << point[1];
+    for (const InPlane& before : pushing) EXPECT_GT(std::hypot(at[0] - before[0], at[1] - before[1]), 1e-9);
+    pushing.push_back(at);
+  }
+  EXPECT_NEAR(of_pushing, of_all, 1e-8) << point[0] << ' ' << point[1];
+}
+
+// Rods through each other, a rod in a plate, plates across each other, ending on each other or in one line; of one
+// thickness or of two.
+TEST(Box, ThickWallsThatOverlapPushOnce) {
+  for (const double thick : {0.1, 0.16}) {
+    std::vector<Box> boxes(5);
+    boxes[0].add_plate({0.45, 0.5, 0.45, 0.5}, 0.1);
+    boxes[0].add_plate({0.5, 0.52, 0.5, 0.52}, thick);
+    boxes[1].add_plate({0.2, 0.4, 0.8, 0.5}, 0.1);
+    boxes[1].add_plate({0.5, 0.5, 0.5, 0.5}, thick);
+    boxes[2].add_plate({0.2, 0.5, 0.8, 0.5}, 0.1);
+    boxes[2].add_plate({0.5, 0.2, 0.5, 0.8}, thick);
+    boxes[3].add_plate({0.2, 0.5, 0.8, 0.5}, 0.1);
+    boxes[3].add_plate({0.5, 0.5, 0.5, 0.8}, thick);
+    boxes[4].add_plate({0.2, 0.5, 0.5, 0.5}, 0.1);
+    boxes[4].add_plate({0.4, 0.5, 0.8, 0.5}, thick);
+    for (std::size_t n = 0; n < boxes.size(); ++n) {
+      SCOPED_TRACE(n);
+      EXPECT_EQ(boxes[n].overlaps.size(), 2U);
+      for (int k = 0; k < 10'000; ++k) expect_once_from_outside(boxes[n], {0.01 * (k % 100), 0.01 * (k / 100)});
+    }
+    EXPECT_EQ(pushing(boxes[3], {0.35, 0.62, 0}), 2);  // in the corner of two plates
+  }
+}
+
 // A rod curves with its own radius, 1/R* = sqrt((1/r)(1/r + 1/R)); a draft tube inside with half its thickness less
 // than its middle, outside with as much more.
 TEST(Box, ThickWallsCurveAtTheirSurface) {
