@@ -32,12 +32,18 @@ void Coupling::smooth_sums() {
 
 bool Coupling::has_sloping_walls() const { return flow_.grid().metric && flow_.grid().metric->tapered(); }
 
-/// A sloping wall consists of steps of cells. On closed faces particles see the vertical velocity of the adjacent open
-/// faces; otherwise particles along the wall would feel half of the flow.
+/// A sloping wall consists of steps of cells. On closed faces particles see the velocity of the adjacent open faces,
+/// along the walls of a tapered column the vertical one; otherwise particles along the wall would feel half of the
+/// flow.
 void Coupling::slip(core::FaceField& velocity) const {
   const core::Grid& grid = flow_.grid();
   if (!has_sloping_walls()) return;
   for (int axis = 0; axis < grid.dimensions; ++axis) flow_.boundaries().join(velocity[1], axis);
+  for (int axis = 0; grid.metric->walls && axis < grid.dimensions; axis += 2) {
+    core::Field& aside = velocity[std::size_t(axis)];
+    for (int across = 0; across < grid.dimensions; ++across) flow_.boundaries().join(aside, across);
+    aside = fluid::slipping(grid, flow_.boundaries(), core::Field(aside), axis, grid.metric->steps_inside);
+  }
   const core::Field stairs = velocity[1];
   velocity[1] = fluid::slipping(grid, flow_.boundaries(), stairs, 1, grid.metric->steps);
   const core::Taper& taper = grid.metric->taper;

@@ -1,5 +1,6 @@
 #include "dem/coupling/round_weights.hpp"
 
+#include <cmath>
 #include <limits>
 #include <span>
 
@@ -35,6 +36,29 @@ std::vector<double> volumes(const core::Grid& grid, int of, int layers) {
   return volume;
 }
 
+/// The centre of an open cell of each entry, m: its own, or one of the two beside a face.
+std::vector<Vector> open_centres(const core::Grid& grid, int of) {
+  std::array<int, 3> count = grid.cells;
+  if (of >= 0) ++count[std::size_t(of)];
+  std::vector<Vector> centres;
+  for (int j = 0; j < count[1]; ++j)
+    for (int k = 0; k < count[2]; ++k)
+      for (int i = 0; i < count[0]; ++i) {
+        std::array<int, 3> cell{i, j, k};
+        const auto is_open = [&] {
+          for (std::size_t a = 0; a < 3; ++a)
+            if (cell[a] < 0 || cell[a] >= grid.cells[a]) return false;
+          const core::CrossSection& section = grid.metric->layer(cell[1]);
+          return section.volume[section.at(cell[0], cell[2])] > 0;
+        };
+        if (of >= 0 && !is_open()) --cell[std::size_t(of)];
+        Vector centre{};
+        for (std::size_t a = 0; a < 3; ++a) centre[a] = (cell[a] + 0.5) * grid.spacing[a];
+        centres.push_back(centre);
+      }
+  return centres;
+}
+
 /// Radius of a column, m; the smaller one at a step.
 double radius_of(const core::Grid& grid, double height) {
   const core::Taper& taper = grid.metric->taper;
@@ -60,6 +84,7 @@ EntryWeights::EntryWeights(const core::Grid& grid, int of)
     offset_[std::size_t(a)] = of == a ? 0 : 0.5;
   }
   const std::vector<double> volume = volumes(grid, of, int(layers()));
+  if (walls_) seen_at_ = open_centres(grid, of);
   for (int j = 0; j < int(layers()); ++j)
     for (int k = 0; k < count_[2]; ++k)
       for (int i = 0; i < count_[0]; ++i) {
@@ -67,6 +92,8 @@ EntryWeights::EntryWeights(const core::Grid& grid, int of)
                           layer = row * std::size_t(count_[2]);
         entries_.push_back({to, grid.index(int(to % row), int(to / layer), int(to % layer / row)), 0});
       }
+  if (walls_) divide_sides(grid, volume);
+  seen_at_ = {};
   fit(grid, volume);
 }
 
@@ -97,43 +124,104 @@ std::size_t EntryWeights::taker(const std::vector<double>& volume, int i, int la
   return found;
 }
 
-/// The open entry nearest to an entry, or to the point of the wall's surface nearest to it.
-std::size_t EntryWeights::taker_between_walls(const std::vector<double>& volume, int i, int j, int k) const {
-  const std::size_t own = entry(std::size_t(i), std::size_t(j), std::size_t(k));
-  if (volume[own] > 0) return own;
-  const std::array<int, 3> cell{i, j, k};
-  Vector place{};
-  for (std::size_t a = 0; a < 3; ++a) place[a] = (cell[a] + offset_[a]) / per_spacing_[a];
-  const core::FromWall wall = walls_->nearest(place);
-  for (std::size_t a = 0; a < 3; ++a) place[a] -= std::min(wall.distance, 0.0) * wall.away[a];
-  constexpr int far = 4;  // deeper in a wall there are no particles
-  std::size_t found = own;
-  double least = std::numeric_limits<double>::infinity();
-  const auto low = [&](std::size_t a) { return std::max(int(std::floor(place[a] * per_spacing_[a])) - far, 0); };
-  const auto end = [&](std::size_t a) { return std::min(low(a) + 2 * far + 1, count_[a]); };
-  for (int y = low(1); y < end(1); ++y)
-    for (int z = low(2); z < end(2); ++z)
-      for (int x = low(0); x < end(0); ++x) {
-        const std::size_t n = entry(std::size_t(x), std::size_t(y), std::size_t(z));
-        if (!(volume[n] > 0)) continue;
-        const std::array<int, 3> there{x, y, z};
-        double away = 0;
-        for (std::size_t a = 0; a < 3; ++a)
-          away = std::hypot(away, (there[a] + offset_[a]) / per_spacing_[a] - place[a]);
-        if (away >= least) continue;
-        least = away;
-        found = n;
-      }
-  return found;
-}
-
-/// Whether the weight of an entry is fitted: near a wall inside.
-bool EntryWeights::near_wall(std::size_t n) const {
+Vector EntryWeights::place_of(std::size_t n) const {
   const auto row = std::size_t(count_[0]), layer = row * std::size_t(count_[2]);
   const std::array<std::size_t, 3> cell{n % row, n / layer, n % layer / row};
   Vector place{};
   for (std::size_t a = 0; a < 3; ++a) place[a] = (double(cell[a]) + offset_[a]) / per_spacing_[a];
-  return walls_->nearest(place).distance <
+  return place;
+}
+
+/// Whether no wall lies between a place outside the walls and an entry: a straight way goes nowhere deeper into one
+/// than a quarter of a cell. Walls are at least one cell thick.
+bool EntryWeights::sees(const Vector& from, std::size_t n) const {
+  const Vector& to = seen_at_[n];
+  double cells = 0;
+  for (std::size_t a = 0; a < 3; ++a) cells = std::max(cells, std::abs(to[a] - from[a]) * per_spacing_[a]);
+  const double deepest = -0.25 / *std::max_element(per_spacing_.begin(), per_spacing_.begin() + 2);
+  const int steps = 1 + int(4 * cells);
+  for (int s = 0; s <= steps; ++s) {
+    Vector at{};
+    for (std::size_t a = 0; a < 3; ++a) at[a] = from[a] + s * (to[a] - from[a]) / steps;
+    if (walls_->nearest(at).distance < deepest) return false;
+  }
+  return true;
+}
+
+/// The open entry nearest to a place. \param from  among those that it sees, if there are any within four cells
+std::size_t EntryWeights::nearest_open(const std::vector<double>& volume, const Vector& place,
+                                       const Vector* from) const {
+  constexpr int far = 4;
+  std::array<int, 3> middle{};
+  for (std::size_t a = 0; a < 3; ++a)
+    middle[a] = std::clamp(int(std::lround(place[a] * per_spacing_[a] - offset_[a])), 0, count_[a] - 1);
+  for (int reach = 1;; reach *= 2) {
+    double least = std::numeric_limits<double>::infinity();
+    std::size_t found = 0;
+    const auto low = [&](std::size_t a) { return std::max(middle[a] - reach, 0); };
+    const auto end = [&](std::size_t a) { return std::min(middle[a] + reach + 1, count_[a]); };
+    for (int y = low(1); y < end(1); ++y)
+      for (int z = low(2); z < end(2); ++z)
+        for (int x = low(0); x < end(0); ++x) {
+          const std::size_t n = entry(std::size_t(x), std::size_t(y), std::size_t(z));
+          if (!(volume[n] > 0)) continue;
+          const Vector there = place_of(n);
+          double away = 0;
+          for (std::size_t a = 0; a < 3; ++a) {
+            const double by = (there[a] - place[a]) * per_spacing_[a];
+            away += by * by;
+          }
+          if (away >= least || (from != nullptr && !sees(*from, n))) continue;
+          least = away;
+          found = n;
+        }
+    const bool is_nearest = least <= (reach + 0.5) * (reach + 0.5);
+    if (is_nearest || (std::isfinite(least) && reach > *std::max_element(count_.begin(), count_.end()))) return found;
+    if (from != nullptr && reach >= far) return std::isfinite(least) ? found : nearest_open(volume, place, nullptr);
+  }
+}
+
+/// The open entry nearest to an entry, or to the point of the wall's surface nearest to it.
+std::size_t EntryWeights::taker_between_walls(const std::vector<double>& volume, int i, int j, int k) const {
+  const std::size_t own = entry(std::size_t(i), std::size_t(j), std::size_t(k));
+  if (volume[own] > 0) return own;
+  Vector place = place_of(own);
+  const core::FromWall wall = walls_->nearest(place);
+  for (std::size_t a = 0; a < 3; ++a) place[a] -= std::min(wall.distance, 0.0) * wall.away[a];
+  return nearest_open(volume, place, nullptr);
+}
+
+/// Finds takers for entries near walls as corners of the boxes between entries: a box with room for a centre has it on
+/// one side of a wall, as walls are at least one cell thick, and its shares go to entries on that side.
+void EntryWeights::divide_sides(const core::Grid& grid, const std::vector<double>& volume) {
+  const std::array<double, 3> h{grid.spacing[0], grid.spacing[1], grid.dimensions == 3 ? grid.spacing[2] : 0};
+  const double half = 0.5 * std::sqrt(h[0] * h[0] + h[1] * h[1] + h[2] * h[2]);
+  for (std::size_t e = 0; e < volume.size(); ++e) {
+    const Vector place = place_of(e);
+    if (std::abs(walls_->nearest(place).distance) > 2 * half) continue;
+    std::array<std::size_t, 8> takers{};
+    bool differ = false;
+    for (std::size_t n = 0; n < 8; ++n) {
+      takers[n] = entries_[e].taker;
+      Vector middle = place;
+      const std::array<std::size_t, 3> high{n & 1, n >> 2 & 1, n >> 1 & 1};
+      for (std::size_t a = 0; a < 3; ++a) middle[a] += (0.5 - double(high[a])) * h[a];
+      const core::FromWall wall = walls_->nearest(middle);
+      if (wall.distance <= -half) continue;  // no room
+      for (std::size_t a = 0; a < 3; ++a) middle[a] -= std::min(wall.distance, 0.0) * wall.away[a];
+      if (sees(middle, takers[n])) continue;
+      takers[n] = nearest_open(volume, place, &middle);
+      differ = differ || takers[n] != entries_[e].taker;
+    }
+    if (!differ) continue;
+    entries_[e].corners = int(corners_.size());
+    corners_.push_back(takers);
+  }
+}
+
+/// Whether the weight of an entry is fitted: near a wall inside.
+bool EntryWeights::near_wall(std::size_t n) const {
+  return walls_->nearest(place_of(n)).distance <
          cells_to_fit / *std::min_element(per_spacing_.begin(), per_spacing_.begin() + 2);
 }
 

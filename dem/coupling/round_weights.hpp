@@ -5,7 +5,8 @@
 // w are the shares of Weights; those on closed entries count for open ones near them. g is fitted once: particles
 // spread evenly over the column fill the open volume V of every entry evenly. g = V alone would fill small cut cells
 // half, and the cells next to them a seventh too much. V of a face is the volume of its momentum. Faces of open cells
-// that the wall closes have their share, and keep it at rest, as faces on the walls of a box do.
+// that the wall closes have their share, and keep it at rest, as faces on the walls of a box do. Beside walls inside
+// the entry that takes a share lies on the particle's side of the wall.
 //
 // If the diameter is constant, all layers are alike and have one g. A round column has it for a quarter and its mirror
 // images; walls inside are anywhere.
@@ -54,8 +55,9 @@ class EntryWeights {
   /// The target of an entry's share: itself or an open one near it.
   struct Entry {
     std::size_t taker;
-    core::Index at;  ///< of the taker in a field; if all layers are alike, in the first
-    double weight;   ///< g of the taker
+    core::Index at;    ///< of the taker in a field; if all layers are alike, in the first
+    double weight;     ///< g of the taker
+    int corners = -1;  ///< place in corners_; -1: the taker is the same on all sides
   };
   [[nodiscard]] Around find(const Vector& x) const {
     std::array<std::array<std::size_t, 2>, 3> at;
@@ -72,8 +74,10 @@ class EntryWeights {
       around.lift[j] = alike_ ? core::Index(at[1][j]) * lift_ : 0;
       for (std::size_t k = 0; k < 2; ++k)
         for (std::size_t i = 0; i < 2; ++i) {
-          around.entry[4 * j + 2 * k + i] = entry(at[0][i], layer, at[2][k]);
-          around.w[4 * j + 2 * k + i] = w[0][i] * w[2][k] * w[1][j];
+          const std::size_t n = 4 * j + 2 * k + i, own = entry(at[0][i], layer, at[2][k]);
+          const int corners = entries_[own].corners;
+          around.entry[n] = corners < 0 ? own : corners_[std::size_t(corners)][n];
+          around.w[n] = w[0][i] * w[2][k] * w[1][j];
         }
     }
     return around;
@@ -86,6 +90,11 @@ class EntryWeights {
   [[nodiscard]] bool near_wall(std::size_t entry) const;
   [[nodiscard]] std::size_t taker(const std::vector<double>& volume, int i, int layer, int k) const;
   [[nodiscard]] std::size_t taker_between_walls(const std::vector<double>& volume, int i, int j, int k) const;
+  [[nodiscard]] std::size_t nearest_open(const std::vector<double>& volume, const Vector& place,
+                                         const Vector* from) const;
+  void divide_sides(const core::Grid& grid, const std::vector<double>& volume);
+  [[nodiscard]] Vector place_of(std::size_t entry) const;
+  [[nodiscard]] bool sees(const Vector& from, std::size_t entry) const;
   [[nodiscard]] std::size_t in_quarter(std::size_t entry) const;
   template <class Body>
   void for_each_place(const core::Grid& grid, Body&& body) const;
@@ -99,6 +108,8 @@ class EntryWeights {
   double radius_;                                   ///< of the column where it is widest, m
   std::shared_ptr<const core::InnerWalls> walls_;   ///< null: none
   std::vector<Entry> entries_;
+  std::vector<std::array<std::size_t, 8>> corners_;  ///< takers of an entry as each of the corners around a particle
+  std::vector<Vector> seen_at_;  ///< of each entry between walls: the centre of an open cell that it belongs to, m
 };
 
 /// Shares of a particle for each kind of entry.

@@ -10,6 +10,7 @@
 #include "core/numerics/metric.hpp"
 #include "dem/coupling/gather.hpp"
 #include "dem/coupling/scatter.hpp"
+#include "fluid/convection.hpp"
 
 namespace polybed::dem::test {
 namespace {
@@ -208,6 +209,90 @@ TEST(RoundWeights, OfParticlesThatLieEvenlyFillATaperedColumnEvenly) {
     EXPECT_LT(off_cells, 0.06);
     EXPECT_LT(off_faces, 0.1);
   }
+}
+
+/// A plate across most of a box of 12 by 12 cells, as thin as it may be: level, or rising by a tenth or as much as
+/// wide.
+struct Plate {
+  core::Column column;
+  core::InsideWalls walls;
+  double rise;
+
+  explicit Plate(double slope) : rise(slope) {
+    column.dimensions = 2;
+    column.size = {12, 12, 1};
+    column.cells = {12, 12, 1};
+    const double thickness = (1 + slope) / std::hypot(1, slope), low = 5.5 - 4 * slope;
+    walls = std::make_shared<const std::vector<core::InnerWall>>(
+        1, core::InnerWall{{2, low}, {10, low + 8 * slope}, core::WallShape::flat, thickness});
+  }
+  [[nodiscard]] double above(const Vector& x) const { return x[1] - 5.5 - rise * (x[0] - 6); }
+};
+
+// Cells on the other side of a plate get nothing from a particle, nor do faces without an open cell on its side.
+TEST(RoundWeights, EndAtAThinPlate) {
+  for (const double slope : {0.0, 0.1, 1.0}) {
+    SCOPED_TRACE(slope);
+    const Plate plate(slope);
+    const core::Grid grid = core::grid_of(plate.column, nullptr, plate.walls);
+    const core::InnerWalls walls(*plate.walls, plate.column.size, false);
+    const RoundWeights weights(grid);
+    std::vector<Vector> centre(grid.padded_size());
+    for (int j = 0; j < 12; ++j)
+      for (int i = 0; i < 12; ++i) centre[std::size_t(grid.index(i, j))] = {i + 0.5, j + 0.5, 0.5};
+    int near = 0;
+    for (int n = 0; n < 4000; ++n) {
+      const Vector x{5 + 0.01 * (n * 37 % 200), 12 * double(n) / 4000, 0.5};
+      const double distance = walls.nearest(x).distance;
+      if (!(distance > 0)) continue;
+      near += distance < 0.5 ? 1 : 0;
+      const bool above = plate.above(x) > 0;
+      const RoundShares shares = weights(x);
+      double sum = 0;
+      for_each_cell(2, shares, [&](std::size_t at, double w) {
+        sum += w;
+        EXPECT_TRUE(w < 1e-12 || (plate.above(centre[at]) > 0) == above) << x[0] << ' ' << x[1];
+      });
+      EXPECT_NEAR(sum, 1, round_off);
+      for (const int axis : {0, 1})
+        for_each_face(2, shares, axis, [&](std::size_t at, double w) {
+          const std::size_t low = at - std::size_t(grid.stride(axis));
+          const auto is_here = [&](std::size_t c) {
+            return grid.metric->volume[c] > 0 && (plate.above(centre[c]) > 0) == above;
+          };
+          EXPECT_TRUE(w < 1e-12 || is_here(at) || is_here(low)) << axis << ' ' << x[0] << ' ' << x[1];
+        });
+    }
+    EXPECT_GT(near, 100);
+  }
+}
+
+// On the closed faces of a shallow plate particles see the flow along it, on either side its own.
+TEST(RoundWeights, SeeTheFlowAlongAShallowPlate) {
+  const Plate plate(0.1);
+  const core::Grid grid = core::grid_of(plate.column, nullptr, plate.walls);
+  const core::InnerWalls walls(*plate.walls, plate.column.size, false);
+  core::Field along = core::make_field(grid);
+  core::for_each_row(grid, core::interior_faces(grid, 0), [&](core::Index begin, core::Index end) {
+    for (core::Index f = begin; f < end; ++f) {
+      const auto row = double(f / grid.stride(1) - core::Grid::halo), column = double(f % grid.stride(1) - 2);
+      along[std::size_t(f)] = plate.above({column, row + 0.5, 0.5}) > 0 ? 1 : -1;
+    }
+  });
+  core::FaceField velocity{along, core::make_field(grid), {}};
+  core::hold_closed(grid, velocity);
+  const fluid::Boundaries boundaries(grid, fluid::Ends::walls);
+  const core::Field seen = fluid::slipping(grid, boundaries, velocity[0], 0, grid.metric->steps_inside);
+  const RoundWeights weights(grid);
+  double slowest = 1;
+  for (int n = 0; n < 4000; ++n) {
+    const Vector x{4 + 0.01 * (n * 37 % 400), 4 + 3 * double(n) / 4000, 0.5};
+    if (!(walls.nearest(x).distance > 0)) continue;
+    double u = 0;
+    for_each_face(2, weights(x), 0, [&](std::size_t at, double w) { u += w * seen[at]; });
+    slowest = std::min(slowest, plate.above(x) > 0 ? u : -u);
+  }
+  EXPECT_NEAR(slowest, 1, 1e-12);
 }
 
 /// Particles in a round column, with random velocities and impulses.
