@@ -158,7 +158,24 @@ def scene(rng, keys, roles):
         text = re.sub(r"(volume_share|static_height|start_solids_fraction) = .*\n", "", text).replace(
             "[bed]\n", '[bed]\nstart = "layered"\n')
         text += "".join(f'[[layer]]\nspecies = "s{n}"\nheight = {0.3 * height * share:.5g}\n' for n, share in enumerate(shares))
+    if rng.random() < 0.3:
+        text += walls(rng, shape, three, width, height, [width / cells_across, height / rows])
+    elif fluid != "none" and rng.random() < 0.2 and "grad" not in text:
+        text = text.replace("[column]\n", f"[column]\ngrading = {rng.uniform(1.01, 1.21):.4g}\ngraded_above = {height * rng.uniform(0.2, 0.8):.4g}\n")
     return text, model
+
+
+def walls(rng, shape, three, width, height, cell):
+    """Walls inside with a thickness, anywhere in the column, most of them thick enough for a fluid."""
+    text, round_ones = "", shape != "box" or three and rng.random() < 0.3
+    widest = 2 * width if shape == "axisymmetric" else width
+    for _ in range(rng.choice([1, 1, 2, 4])):
+        kind = rng.choice(["cylinder", "cone"] if round_ones else ["rod", "rod", "flat"])
+        places = [[rng.uniform(0, widest), max(rng.uniform(0.1, 1) * height, 3 * cell[1] * rng.choice([0.5, 1, 1]))] for _ in range(2)]
+        start, end = places[0], {"rod": places[0], "cylinder": [places[0][0], places[1][1]]}.get(kind, places[1])
+        text += (f'[[wall]]\nshape = "{kind}"\nfrom = [{start[0]:.5g}, {start[1]:.5g}]\nto = [{end[0]:.5g}, {end[1]:.5g}]\n'
+                 f"thickness = {max(cell) * rng.choice([0.5, 1.5, 2, 2.1, 2.1, 3]):.4g}\n")
+    return text
 
 
 def ended(program, words, folder, longest=LONGEST):
