@@ -24,8 +24,7 @@ double distance_between(const Plate& one, const Plate& other) {
   };
   double least = crosses(one, other) && crosses(other, one) ? 0 : std::numeric_limits<double>::infinity();
   const auto see = [&](const Plate& plate, double x, double y) {
-    const InPlane away = plate.from_middle({x, y});
-    least = std::min(least, std::sqrt(away[0] * away[0] + away[1] * away[1]));
+    least = std::min(least, plate.distance_from_middle({x, y}));
   };
   see(one, other.x, other.y);
   see(one, other.x + other.along_x, other.y + other.along_y);

@@ -13,6 +13,7 @@
 #include <emmintrin.h>
 #endif
 
+#include "core/numerics/wall_profile.hpp"
 #include "dem/particles.hpp"
 #include "dem/tapered_side.hpp"
 
@@ -37,55 +38,22 @@ struct Opening {
   [[nodiscard]] std::optional<Vector> from_rim(const Vector& centre) const;
 };
 
-/// A point in the plane of a plate's profile, m: x and y, or distance from the axis and y.
-using InPlane = std::array<double, 2>;
+using core::InPlane;
 
 /// A wall inside the box, which particles meet from both sides and from its edges. Its middle has a straight profile in
-/// a plane: flat plates lie along z from end to end; round ones are cones about an upright axis. Its surface lies half
-/// its thickness from the middle, so that edges are rounded; a rod is a flat plate of no width.
-struct Plate {
-  double x = 0, y = 0;              ///< of one edge, in its plane, m
-  double along_x = 1, along_y = 0;  ///< to the other edge, m
-  double per_square = 1;            ///< 1 over the square of their distance, 1/m2; 0 for a rod
-  double half = 0;                  ///< of its thickness, m
-
+/// a plane: flat plates lie along z from end to end; round ones are cones about an upright axis.
+struct Plate : core::WallProfile {
   bool round = false;
   double axis_x = 0, axis_z = 0;         ///< for a round one, m
   int first_curve = 0, curve_bands = 0;  ///< place of its curvatures in the box's list; bands of a round one
 
-  Plate() = default;
-  Plate(double x0, double y0, double x1, double y1)
-      : x(x0),
-        y(y0),
-        along_x(x1 - x0),
-        along_y(y1 - y0),
-        per_square(along_x == 0 && along_y == 0 ? 0 : 1 / (along_x * along_x + along_y * along_y)) {}
+  using core::WallProfile::to;
+  using core::WallProfile::WallProfile;
 
   [[nodiscard]] InPlane in_plane(const Vector& centre) const {
     if (!round) return {centre[0], centre[1]};
     const double dx = centre[0] - axis_x, dz = centre[2] - axis_z;
     return {std::sqrt(dx * dx + dz * dz), centre[1]};
-  }
-  /// Position along the plate of the point nearest to another: below 0 and above 1 beyond an edge.
-  [[nodiscard]] double share(const InPlane& point) const {
-    return ((point[0] - x) * along_x + (point[1] - y) * along_y) * per_square;
-  }
-  /// Vector to a point from the nearest point on the middle of the plate, m.
-  [[nodiscard]] InPlane from_middle(const InPlane& point) const {
-    const double within = std::clamp(share(point), 0.0, 1.0);
-    return {point[0] - x - within * along_x, point[1] - y - within * along_y};
-  }
-  /// The same from its surface, for a point outside.
-  [[nodiscard]] InPlane to(const InPlane& point) const {
-    const InPlane away = from_middle(point);
-    if (half == 0) return away;
-    const double beyond = 1 - half / std::sqrt(away[0] * away[0] + away[1] * away[1]);
-    return {beyond * away[0], beyond * away[1]};
-  }
-  /// Distance of a point from its surface, m; below 0 inside.
-  [[nodiscard]] double gap(const InPlane& point) const {
-    const InPlane away = from_middle(point);
-    return std::sqrt(away[0] * away[0] + away[1] * away[1]) - half;
   }
   /// Vector to a centre from the nearest point on the surface of the plate, m. On the axis of a round one, along x.
   [[nodiscard]] Vector to(const Vector& centre) const {

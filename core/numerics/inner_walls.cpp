@@ -17,35 +17,37 @@ InnerWalls::InnerWalls(std::span<const InnerWall> walls, const std::array<double
     const InnerWall& wall = walls[n];
     if (!(wall.thickness > 0)) continue;
     const double across = wall.is_round() ? 0.5 : 1.0;  // a round wall gives diameters
-    Part part{across * wall.from[0],
-              wall.from[1],
-              across * (wall.to[0] - wall.from[0]),
-              wall.to[1] - wall.from[1],
-              0,
-              0.5 * wall.thickness,
-              wall.is_round(),
-              n};
-    const double square = part.along_x * part.along_x + part.along_y * part.along_y;
-    part.per_square = square > 0 ? 1 / square : 0;
-    parts_.push_back(part);
+    WallProfile profile(across * wall.from[0], wall.from[1], across * wall.to[0], wall.to[1]);
+    profile.half = 0.5 * wall.thickness;
+    parts_.push_back({profile, wall.is_round(), n});
   }
 }
 
-FromWall InnerWalls::nearest(const std::array<double, 3>& place) const {
-  FromWall found{std::numeric_limits<double>::infinity(), {0, 1, 0}};
-  const double dx = place[0] - axis_x_, dz = rings_ ? 0 : place[2] - axis_z_, radius = std::sqrt(dx * dx + dz * dz);
+InnerWalls::Found InnerWalls::find(const std::array<double, 3>& place) const {
+  const double dx = place[0] - axis_x_, dz = rings_ ? 0 : place[2] - axis_z_;
+  Found found;
+  found.radius = std::sqrt(dx * dx + dz * dz);
   for (const Part& part : parts_) {
-    const double x = (part.round ? radius : place[0]) - part.x, y = place[1] - part.y;
-    const double share = std::clamp((x * part.along_x + y * part.along_y) * part.per_square, 0.0, 1.0);
-    const double to_x = x - share * part.along_x, to_y = y - share * part.along_y,
-                 length = std::sqrt(to_x * to_x + to_y * to_y);
-    if (length - part.half >= found.distance) continue;
-    const double across = length > 0 ? to_x / length : 0, up = length > 0 ? to_y / length : 1;
-    const bool turned = part.round && radius > 0;
-    found = {
-        length - part.half, {turned ? across * dx / radius : across, up, turned ? across * dz / radius : 0}, part.wall};
+    const double distance = part.profile.gap({part.round ? found.radius : place[0], place[1]});
+    if (distance >= found.distance) continue;
+    found.part = &part;
+    found.distance = distance;
   }
   return found;
+}
+
+FromWall InnerWalls::nearest(const std::array<double, 3>& place) const {
+  const Found found = find(place);
+  if (found.part == nullptr) return {found.distance, {0, 1, 0}};
+  const WallProfile& profile = found.part->profile;
+  const InPlane away = profile.from_middle({found.part->round ? found.radius : place[0], place[1]});
+  const double length = std::sqrt(away[0] * away[0] + away[1] * away[1]), radius = found.radius;
+  const double across = length > 0 ? away[0] / length : 0, up = length > 0 ? away[1] / length : 1;
+  const bool turned = found.part->round && radius > 0;
+  return {found.distance,
+          {turned ? across * (place[0] - axis_x_) / radius : across, up,
+           turned && !rings_ ? across * (place[2] - axis_z_) / radius : 0},
+          found.part->wall};
 }
 
 // Volume under a plane in a box, by inclusion and exclusion of its corners (Scardovelli and Zaleski 2000, J. Comput.
@@ -181,12 +183,11 @@ double Cutting::open_share(const Place& middle, const Place& widths) const {
 
 /// The same times the radius of the middle of a cell in rings.
 double Cutting::open_part(const Place& middle, const Place& widths, int left) const {
-  const FromWall wall = walls_.nearest(middle);
-  const double weight = rings_ && widths[0] > 0 ? middle[0] : 1;
+  const double distance = walls_.distance(middle), weight = rings_ && widths[0] > 0 ? middle[0] : 1;
   const double half = 0.5 * std::sqrt(widths[0] * widths[0] + widths[1] * widths[1] + widths[2] * widths[2]);
-  if (wall.distance >= half) return weight;
-  if (wall.distance <= -half) return 0;
-  if (left == 0) return weight * share_beyond(wall.distance, wall.away, widths);
+  if (distance >= half) return weight;
+  if (distance <= -half) return 0;
+  if (left == 0) return weight * share_beyond(distance, walls_.nearest(middle).away, widths);
   const Place part{0.5 * widths[0], 0.5 * widths[1], 0.5 * widths[2]};
   double open = 0;
   int parts = 0;
@@ -206,7 +207,9 @@ double Cutting::open_part(const Place& middle, const Place& widths, int left) co
 }
 
 void Cutting::cut() {
+  const double far = std::hypot(h_[0], h_[1], axes_ == 3 ? h_[2] : 0);
   for_each_cell([&](const Cell& c) {
+    if (walls_.distance(centre(c)) > far) return;
     volume(c) *= open_share(centre(c), h_);
     for (int axis = 0; axis < axes_; ++axis)
       for (const int side : {0, 1}) {
@@ -252,7 +255,7 @@ void Cutting::merge_small_cells() {
   const double half = 0.5 * std::hypot(h_[0], h_[1], axes_ == 3 ? h_[2] : 0);
   small_.assign(std::size_t(n_[0]) * std::size_t(n_[1]) * std::size_t(n_[2]), false);
   for_each_cell([&](const Cell& c) {
-    const double distance = walls_.nearest(centre(c)).distance;
+    const double distance = walls_.distance(centre(c));
     if (!(volume(c) > 0)) return close(c);
     if (!(distance < half && volume(c) < least_cell * whole(c))) return;
     small.emplace_back(float(distance / half), c);

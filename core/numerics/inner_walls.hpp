@@ -1,13 +1,14 @@
 // Walls of finite thickness inside a column: how far a point is from them, and the open shares that they leave.
 //
-// A wall consists of all points within half its thickness of its middle surface, so that its edges are rounded. The DEM
-// lets particles touch the same surface.
+// The profile of a wall stands in wall_profile.hpp: the DEM lets particles touch the same surface.
 #pragma once
 
+#include <limits>
 #include <span>
 
 #include "core/case/scene.hpp"
 #include "core/numerics/metric.hpp"
+#include "core/numerics/wall_profile.hpp"
 
 namespace polybed::core {
 
@@ -26,14 +27,21 @@ class InnerWalls {
 
   [[nodiscard]] bool empty() const { return parts_.empty(); }
   [[nodiscard]] FromWall nearest(const std::array<double, 3>& place) const;
+  /// Its distance alone.
+  [[nodiscard]] double distance(const std::array<double, 3>& place) const { return find(place).distance; }
 
  private:
-  /// The profile of a wall in its plane: x and y, or distance from the axis and y.
   struct Part {
-    double x, y, along_x, along_y, per_square, half;
+    WallProfile profile;
     bool round;
     std::size_t wall;
   };
+  struct Found {
+    const Part* part = nullptr;
+    double distance = std::numeric_limits<double>::infinity();
+    double radius = 0;  ///< of the place
+  };
+  [[nodiscard]] Found find(const std::array<double, 3>& place) const;
   std::vector<Part> parts_;
   double axis_x_, axis_z_;
   bool rings_;

@@ -143,7 +143,7 @@ bool EntryWeights::sees(const Vector& from, std::size_t n) const {
   for (int s = 0; s <= steps; ++s) {
     Vector at{};
     for (std::size_t a = 0; a < 3; ++a) at[a] = from[a] + s * (to[a] - from[a]) / steps;
-    if (walls_->nearest(at).distance < deepest) return false;
+    if (walls_->distance(at) < deepest) return false;
   }
   return true;
 }
@@ -198,7 +198,7 @@ void EntryWeights::divide_sides(const core::Grid& grid, const std::vector<double
   const double half = 0.5 * std::sqrt(h[0] * h[0] + h[1] * h[1] + h[2] * h[2]);
   for (std::size_t e = 0; e < volume.size(); ++e) {
     const Vector place = place_of(e);
-    if (std::abs(walls_->nearest(place).distance) > 2 * half) continue;
+    if (std::abs(walls_->distance(place)) > 2 * half) continue;
     std::array<std::size_t, 8> takers{};
     bool differ = false;
     for (std::size_t n = 0; n < 8; ++n) {
@@ -221,7 +221,7 @@ void EntryWeights::divide_sides(const core::Grid& grid, const std::vector<double
 
 /// Whether the weight of an entry is fitted: near a wall inside.
 bool EntryWeights::near_wall(std::size_t n) const {
-  return walls_->nearest(place_of(n)).distance <
+  return walls_->distance(place_of(n)) <
          cells_to_fit / *std::min_element(per_spacing_.begin(), per_spacing_.begin() + 2);
 }
 
@@ -250,7 +250,7 @@ void EntryWeights::for_each_place(const core::Grid& grid, Body&& body) const {
         for (int i = 0; part * i < n * grid.cells[0]; ++i) {
           const double x = (i + 0.5) * hx / n, z = (k + 0.5) * hz / nz, away = std::hypot(x - radius_, z - radius_);
           if (walls_) {
-            const double distance = walls_->nearest({x, y, z}).distance;
+            const double distance = walls_->distance({x, y, z});
             const bool inside = grid.metric->shape == core::ColumnShape::box || away <= radius;
             if (distance > 0 && distance < far && inside) body(find({x, y, z}), 1 / (heights * n * nz));
             continue;
