@@ -261,7 +261,8 @@ double bytes_of_walls(const core::Scene& scene) {
   if (!scene.fluid.present() || scene.walls.empty()) return 0;
   // The fields of core::Metric and a velocity along the walls; its layers, cut and uncut, for the whole column.
   const double axes = scene.column.dimensions, fields = 6 + 4 * axes, layers = 4 + 3 * axes;
-  return double(sizeof(double)) * (fields + layers) * double(cell_count(scene));
+  constexpr double multigrid = 800;  // bytes a cell more than of the row means of the sample, in a tube of 57,344 cells
+  return (double(sizeof(double)) * (fields + layers) + multigrid) * double(cell_count(scene));
 }
 
 core::Scene narrow_part(const core::Scene& scene, std::size_t most_cells) {
