@@ -37,6 +37,9 @@ measures::Table<Told> history_table(const Parts& parts) {
   add(parts.fluid && parts.compressible,
       {"mass_fluid", "kg", "of a compressible fluid: in the column, after its last step",
        [](const Told& t) { return t.fluid_mass; }});
+  add(parts.fluid && parts.open_sides,
+      {"overflow", "m3_s", "with discharge.pressure: volume of fluid and particles that leaves there a second",
+       [](const Told& t) { return t.overflow; }});
   add(parts.outflow,
       {"out", "1",
        "with dem.opening, column.outlet = \"open\" or [[discharge]]: particles that have left since the start",

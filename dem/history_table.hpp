@@ -15,6 +15,7 @@ struct Told {
   double fluid_mass = 0;                     ///< of a compressible fluid, kg
   std::vector<double> number_out, mass_out;  ///< of particles that have left since the start, kg, [species]
   std::vector<double> number_in, mass_in;    ///< of particles that have entered since the start, kg, [species]
+  double overflow = 0;                       ///< through sides with a given pressure, m3/s
 };
 
 /// Optional parts of a run.
@@ -22,6 +23,7 @@ struct Parts {
   bool ledger = false, outflow = false, fluid = false;
   bool feeding = false;       ///< particles are fed
   bool compressible = false;  ///< the fluid is compressible
+  bool open_sides = false;    ///< a discharge has a pressure
 };
 
 /// The columns after the bed's.

@@ -26,7 +26,8 @@ Parts parts_of(const Model& model, bool ledger) {
           .outflow = model.outflow() != nullptr,
           .fluid = coupling != nullptr,
           .feeding = model.feeding() != nullptr,
-          .compressible = coupling != nullptr && coupling->flow().compressible() != nullptr};
+          .compressible = coupling != nullptr && coupling->flow().compressible() != nullptr,
+          .open_sides = coupling != nullptr && coupling->flow().has_open_sides()};
 }
 
 std::vector<std::string> profile_names(const Model& model, const measures::Slabs& slabs) {
@@ -192,6 +193,7 @@ void Observers::write_history(double time) {
   TotalsOfRanks totals(model_);
   Greatest most = greatest_of(model_);
   double most_solids = model_.coupling() != nullptr ? model_.coupling()->most_solids() : 0;
+  const double overflow = model_.coupling() != nullptr ? model_.coupling()->flow().overflow() : 0;
   core::Reduction greatest, all;
   totals.put_greatest_into(greatest);
   most.put_into(greatest);
@@ -214,12 +216,12 @@ void Observers::write_history(double time) {
   bed.buoyant_weight = weight_of(model_, bed, slabs_.area);
   core::on_first(model_.ranks(), [&] {
     bed_height_ = measures::bed_height(bed.profile);
-    files_->history.write_row(history_.row(bed, told(most_solids)));
+    files_->history.write_row(history_.row(bed, told(most_solids, overflow)));
   });
 }
 
-Told Observers::told(double most_solids) const {
-  Told told{totals_, most_solids, fluid_ ? fluid_->mass() : 0, {}, {}, {}, {}};
+Told Observers::told(double most_solids, double overflow) const {
+  Told told{totals_, most_solids, fluid_ ? fluid_->mass() : 0, {}, {}, {}, {}, overflow};
   const auto tell = [this](const std::vector<std::int64_t>& passed, std::vector<double>& number,
                            std::vector<double>& mass) {
     for (std::size_t j = 0; j < passed.size(); ++j) {

@@ -56,7 +56,7 @@ class Observers {
     std::unique_ptr<FluidOutput> fluid;  ///< null without one
   };
   /// On the first rank.
-  [[nodiscard]] Told told(double most_solids) const;
+  [[nodiscard]] Told told(double most_solids, double overflow) const;
   void write_all_particles(double time);
 
   const Model& model_;

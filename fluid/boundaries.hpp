@@ -9,6 +9,7 @@
 
 #include "core/case/scene.hpp"
 #include "core/numerics/halo.hpp"
+#include "fluid/open_face.hpp"
 
 namespace polybed::fluid {
 
@@ -17,7 +18,8 @@ namespace polybed::fluid {
 enum class Ends { walls, outlet, given };
 [[nodiscard]] inline Ends ends_of(const core::Scene& scene) {
   if (scene.column.closed) return Ends::walls;
-  return scene.inlet.at == core::ColumnEnd::top ? Ends::given : Ends::outlet;
+  const bool lid = scene.column.outlet == core::Outlet::lid;
+  return scene.inlet.at == core::ColumnEnd::top || lid ? Ends::given : Ends::outlet;
 }
 
 /// The sides with inflow or outflow of fluid or solids through parts of them.
@@ -39,14 +41,22 @@ class Boundaries {
  public:
   Boundaries() = default;
   /// open: solids can leave through the outlet.
-  Boundaries(const core::Grid& grid, Ends ends, bool open = false, std::vector<core::ColumnFace> crossed = {})
-      : grid_(grid), halo_(grid), ends_(ends), open_(open && ends == Ends::outlet), crossed_(std::move(crossed)) {}
+  Boundaries(const core::Grid& grid, Ends ends, bool open = false, std::vector<core::ColumnFace> crossed = {},
+             std::vector<OpenFace> open_faces = {})
+      : grid_(grid),
+        halo_(grid),
+        ends_(ends),
+        open_(open && ends == Ends::outlet),
+        crossed_(std::move(crossed)),
+        open_faces_(std::move(open_faces)) {}
 
   [[nodiscard]] bool closed() const { return ends_ == Ends::walls; }
   /// Whether the pressure is given at the top, so that the outflow is free.
   [[nodiscard]] bool has_outlet() const { return ends_ == Ends::outlet; }
   [[nodiscard]] bool open() const { return open_; }
   [[nodiscard]] const std::vector<core::ColumnFace>& crossed() const { return crossed_; }
+  /// Faces in the sides with a pressure given outside.
+  [[nodiscard]] const std::vector<OpenFace>& open_faces() const { return open_faces_; }
 
   /// Whether this block has a wall for the solids at the low (0) or high (1) end of an axis: at all ends of the column,
   /// including the distributor, except the top of an open one.
@@ -114,6 +124,7 @@ class Boundaries {
   Ends ends_ = Ends::outlet;
   bool open_ = false;
   std::vector<core::ColumnFace> crossed_;
+  std::vector<OpenFace> open_faces_;
   int solids_rows_ = std::numeric_limits<int>::max();  ///< in this block, counted from its first row
 };
 

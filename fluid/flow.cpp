@@ -28,16 +28,29 @@ void clear(core::FaceField& faces) {
   for (Field& f : faces) std::fill(f.begin(), f.end(), 0.0);
 }
 
+/// Of the solids in the bed; without a bed, of the species alike.
+double mean_density(const core::Scene& scene) {
+  double sum = 0, shares = 0;
+  for (std::size_t j = 0; j < scene.species.size(); ++j) {
+    const double share = j < scene.bed.volume_share.size() ? scene.bed.volume_share[j] : 1;
+    sum += share * scene.species[j].density;
+    shares += share;
+  }
+  return shares > 0 ? sum / shares : 0;
+}
+
 }  // namespace
 
 Flow::Flow(const core::Scene& scene, const core::Grid& grid, double tolerance)
     : grid_(grid),
-      boundaries_(grid, ends_of(scene), false, crossed_sides(scene)),
+      boundaries_(grid, ends_of(scene), false, crossed_sides(scene), open_faces(grid, scene)),
       inlet_(grid, scene),
       constants_(relevance::fluid_constants(scene.fluid)),
       gravity_(scene.column.gravity),
+      solids_density_(mean_density(scene)),
       tolerance_(tolerance),
       viscous_(core::acts(scene, "fluid_stress")),
+      has_open_sides_(fluid::has_open_sides(scene)),
       limited_(scene.scheme.momentum != core::Momentum::conservative),
       solver_(grid),
       fluid_(grid),
@@ -74,6 +87,10 @@ void Flow::begin(double t, const ParticlePhase& particles) {
       }
     });
   }
+  for_each_open_face([&](const OpenFace& f, std::size_t a, std::size_t at) {
+    fluid_.flux[a][at] = fluid_.velocity[a][at];
+    mobility_[a][at] = per_inertia_[a][at] = f.mobility(constants_.density);
+  });
   clear(velocity_change_);
   hold();
   clear(own_flux_);          // an impulse transports nothing
@@ -82,7 +99,7 @@ void Flow::begin(double t, const ParticlePhase& particles) {
   close_pressure(t, any, step);
   correct(any);
   std::fill(fluid_.pressure.begin(), fluid_.pressure.end(), 0.0);
-  clear(gradient_);
+  set_gradient();
   clear(gradient_change_);
   clear(velocity_change_);
 }
@@ -147,6 +164,10 @@ void Flow::set_inlet(double t) {
   inlet_.for_each_side_face([&](std::size_t a, Index face, Index inside) {
     fluid_.velocity[a][std::size_t(face)] = own_flux_[a][std::size_t(face)] / fluid_.voidage[std::size_t(inside)];
   });
+  for_each_open_face([&](const OpenFace& f, std::size_t a, std::size_t at) {
+    const double flux = fluid_.velocity[a][at], out = f.leaving(flux);
+    own_flux_[a][at] = flux - (1 - fluid_.voidage[std::size_t(f.inside)]) * out;
+  });
   core::hold_closed(grid_, fluid_.velocity);
 }
 
@@ -154,6 +175,8 @@ void Flow::set_inlet(double t) {
 void Flow::find_acceleration(double dt, const ParticlePhase& particles) {
   boundaries_.fill_velocity(fluid_.velocity, WallSlip::no_slip);
   inlet_.extend(fluid_.velocity);
+  for_each_open_face(
+      [&](const OpenFace& f, std::size_t a, std::size_t) { extend_beyond(grid_, f.at, f.face, fluid_.velocity[a]); });
   find_own_flux(particles);
   const auto on_face = [&](std::size_t a, Index c, Index) { return particles.voidage_on[a][std::size_t(c)]; };
   convection(grid_, boundaries_, limited_, true, own_flux_, fluid_.velocity, on_face, acceleration_);
@@ -203,6 +226,14 @@ void Flow::push(const Density& density, double dt, const ParticlePhase& particle
       }
     });
   }
+  for_each_open_face([&](const OpenFace& f, std::size_t a, std::size_t at) {
+    const double eps = fluid_.voidage[std::size_t(f.inside)];
+    const double mixture = eps * density.on_face(f.face, grid_.stride(int(a))) + (1 - eps) * solids_density_;
+    mobility_[a][at] = per_inertia_[a][at] = f.mobility(mixture);
+    velocity_change_[a][at] =
+        dt * (f.convection(fluid_.velocity[a], fluid_.velocity[a]) - mobility_[a][at] * gradient_[a][at]);
+    fluid_.flux[a][at] = fluid_.velocity[a][at] + velocity_change_[a][at];
+  });
 }
 
 /// Nothing moves at faces closed by a round wall, whatever the pressure.
@@ -274,6 +305,11 @@ void Flow::correct(double dt) {
       }
     });
   }
+  for_each_open_face([&](const OpenFace&, std::size_t a, std::size_t at) {
+    velocity_change_[a][at] -= dt * mobility_[a][at] * gradient_change_[a][at];
+    fluid_.velocity[a][at] += velocity_change_[a][at];
+    fluid_.flux[a][at] = fluid_.velocity[a][at];
+  });
   core::for_each_row(grid_, [&](Index begin, Index end) {
     for (auto c = std::size_t(begin); c < std::size_t(end); ++c) fluid_.pressure[c] += change_[c];
   });
@@ -303,7 +339,13 @@ void Flow::gradient_of(const Field& p, core::FaceField& out) {
     });
   }
   if (grid_.metric) gradient_on_closed(out);
+  for_each_open_face([&](const OpenFace& f, std::size_t a, std::size_t at) { out[a][at] = f.gradient(p); });
   boundaries_.join(out);
+}
+
+void Flow::set_gradient() {
+  gradient_of(fluid_.pressure, gradient_);
+  for_each_open_face([&](const OpenFace& f, std::size_t a, std::size_t at) { gradient_[a][at] += f.rise; });
 }
 
 /// The mean over the adjacent open faces along their axis, as on walls that follow the grid.

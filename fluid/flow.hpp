@@ -60,10 +60,13 @@ class Flow {
   [[nodiscard]] const core::FaceField& gradient_change() const { return gradient_change_; }
   [[nodiscard]] const core::FaceField& velocity_change() const { return velocity_change_; }
   [[nodiscard]] const core::FaceField& convected() const { return convected_; }
+  /// Whether a discharge has a pressure, and the flow out through the open faces of the sides, m3/s.
+  [[nodiscard]] bool has_open_sides() const { return has_open_sides_; }
+  [[nodiscard]] double overflow() const { return outflow(grid_, boundaries_.open_faces(), fluid_.velocity); }
   /// Null for an incompressible fluid.
   [[nodiscard]] const Compressible* compressible() const { return compressible_ ? &*compressible_ : nullptr; }
   /// Recomputes the pressure's gradient from the pressure, after the state was set from outside.
-  void set_gradient() { gradient_of(fluid_.pressure, gradient_); }
+  void set_gradient();
   /// Starts anew: further solves do not depend on earlier ones.
   void forget() { solver_.forget(); }
 
@@ -85,14 +88,20 @@ class Flow {
   [[nodiscard]] double viscous_courant(double dt) const;
   void gradient_of(const core::Field& p, core::FaceField& out);
   void gradient_on_closed(core::FaceField& out);
+  /// Calls body(open face, axis, face) for the faces in the sides with a pressure outside. U is their whole flux.
+  template <class Body>
+  void for_each_open_face(Body&& body) const {
+    for (const OpenFace& f : boundaries_.open_faces()) body(f, f.axis(), std::size_t(f.face));
+  }
 
   core::Grid grid_;
   Boundaries boundaries_;
   Inlet inlet_;
   relevance::FluidConstants constants_;
-  double gravity_, tolerance_;  ///< m/s2; of the pressure's residual
-  bool viscous_;                ///< with a viscous stress
-  bool limited_;                ///< convection is second order, with a limiter
+  double gravity_, solids_density_, tolerance_;  ///< m/s2; mean, kg/m3; of the pressure's residual
+  bool viscous_;                                 ///< with a viscous stress
+  bool has_open_sides_;
+  bool limited_;  ///< convection is second order, with a limiter
   std::optional<Compressible> compressible_;
   core::PoissonSolver solver_;
   FluidState fluid_;

@@ -126,8 +126,13 @@ Inlet::Inlet(const core::Grid& grid, const core::Scene& scene) : grid_(grid) {
     if (feed.at == core::ColumnFace::bottom)
       parts_.push_back({Ramp(feed.superficial_velocity), face_shares(grid, feed.from, feed.to), 0, Carries::solids});
   }
+  lid_ = scene.column.outlet == core::Outlet::lid;
+  for (const core::Feed& feed : scene.feeds)
+    if (feed.at == core::ColumnFace::top && (lid_ || above_ != 0))
+      fed_above_.push_back(
+          {Ramp(feed.superficial_velocity, -1), face_shares(grid, feed.from, feed.to, feed.at), 0, Carries::solids});
   for (const core::Discharge& discharge : scene.discharges)
-    add(discharge, -1, scene.bed.held ? Carries::fluid : Carries::both);
+    if (!discharge.pressure) add(discharge, -1, scene.bed.held ? Carries::fluid : Carries::both);
   for (Part& part : parts_) part.mean_share = mean_over_bottom(part.share);
 }
 
@@ -145,7 +150,7 @@ void Inlet::add_port(const Side& part, double inward, Carries carries) {
       if (share[f] == 0) continue;
       port.face.push_back(c);
       port.share.push_back(share[f]);
-      area.push_back(share[f] * (grid_.layers ? grid_.metric->open[std::size_t(axis)][std::size_t(c)] : 1.0));
+      area.push_back(share[f] * (grid_.metric ? grid_.metric->open[std::size_t(axis)][std::size_t(c)] : 1.0));
     }
   });
   const double faces = core::sum_of_ranks(grid_, area) * grid_.spacing[1] / grid_.spacing[std::size_t(axis)];
@@ -179,6 +184,15 @@ void Inlet::set(core::FaceField& faces, Value&& value) const {
   for (const Port& port : ports_)
     for (std::size_t n = 0; n < port.face.size(); ++n)
       faces[std::size_t(axis_of(port.at))][std::size_t(port.face[n])] += port.share[n] * value(port.ramp);
+  if (lid_) {
+    std::size_t above = 0;
+    for_each_boundary_row(grid_, 1, 1, [&](Index begin, Index end) {
+      for (Index c = begin; c < end; ++c, ++above) {
+        upward[std::size_t(c)] = 0;
+        for (const Part& part : fed_above_) upward[std::size_t(c)] += part.share[above] * value(part.ramp);
+      }
+    });
+  }
   if (above_ == 0) return;
   double even = 0;
   for (const Part& part : parts_) even += above_ * part.mean_share * value(part.ramp);
@@ -201,6 +215,11 @@ void Inlet::take_solids_out(double t, const core::Field& voidage, core::FaceFiel
   for_each_boundary_row(grid_, 1, 0, [&](Index begin, Index end) {
     for (Index c = begin; c < end; ++c, ++face)
       for (const Part& part : parts_) take(part, 1, part.share[face], c, c);
+  });
+  std::size_t above = 0;
+  for_each_boundary_row(grid_, 1, 1, [&](Index begin, Index end) {
+    for (Index c = begin; c < end; ++c, ++above)
+      for (const Part& part : fed_above_) take(part, 1, part.share[above], c, c - grid_.stride(1));
   });
   for (const Port& port : ports_) {
     const auto axis = std::size_t(axis_of(port.at));
@@ -246,6 +265,7 @@ std::vector<double> Inlet::breakpoints() const {
   };
   add(parts_);
   add(ports_);
+  add(fed_above_);
   std::sort(times.begin(), times.end());
   times.erase(std::unique(times.begin(), times.end()), times.end());
   return times;

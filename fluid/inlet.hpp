@@ -104,6 +104,8 @@ class Inlet {
   core::Grid grid_;
   std::vector<Part> parts_;  ///< the distributor first
   std::vector<Port> ports_;
+  std::vector<Part> fed_above_;  ///< feeds through a top where the flow is given: none else passes a lid
+  bool lid_ = false;
   double above_ = 0;  ///< uniform part at the top, over the mean of the bottom; 0: not given there
 };
 

@@ -100,6 +100,13 @@ void flux_rate_with(const Density& density, const core::Grid& grid, const Bounda
       }
     });
   }
+  for (const OpenFace& f : boundaries.open_faces()) {
+    const auto in = std::size_t(f.inside), at = std::size_t(f.face);
+    double mixture = std::max(eps[in], voidage_floor) * density.on_face(f.face, grid.stride(int(f.axis())));
+    for (std::size_t j = 0; j < solids.species(); ++j) mixture += solids.fraction[j][in] * solids.density[j];
+    const double mobility = out.mobility[f.axis()][at] = f.mobility(mixture);
+    out.free[f.axis()][at] = f.convection(fluid.flux[f.axis()], fluid.velocity[f.axis()]) - mobility * f.rise;
+  }
 }
 
 }  // namespace

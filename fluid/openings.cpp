@@ -17,15 +17,17 @@ Openings::Openings(const core::Grid& grid, const core::Scene& scene) : grid_(gri
   using core::ColumnFace;
   if (scene.column.closed) return;
   open_ = scene.column.outlet == core::Outlet::open;
+  open_faces_ = open_faces(grid, scene);
   for (const core::Feed& feed : scene.feeds) greatest_ = std::max(greatest_, std::abs(feed.velocity));
-  for (const core::Discharge& discharge : scene.discharges) add_discharge(discharge);
+  for (const core::Discharge& discharge : scene.discharges)
+    if (!discharge.pressure) add_discharge(discharge);
   for (std::size_t j = 0; j < scene.species.size(); ++j)
     for (const ColumnFace at : {ColumnFace::bottom, ColumnFace::top, ColumnFace::left, ColumnFace::right,
                                 ColumnFace::front, ColumnFace::back}) {
       add_gate(scene, j, at);
       const bool fed = !gates_.empty() && gates_.back().species == j && gates_.back().at == at;
-      const bool leaves =
-          std::any_of(discharges_.begin(), discharges_.end(), [&](const Gate& g) { return g.at == at; });
+      const bool leaves = std::any_of(scene.discharges.begin(), scene.discharges.end(),
+                                      [&](const core::Discharge& d) { return d.at == at; });
       if (fed || leaves || (open_ && at == ColumnFace::top)) passages_.push_back({j, at});
     }
 }
@@ -139,6 +141,11 @@ void Openings::set_velocities(double t, Interphase& solids) const {
   }
 }
 
+void Openings::follow(const core::FaceField& flux, Interphase& solids) const {
+  for (core::FaceField& velocity : solids.velocity)
+    for (const OpenFace& f : open_faces_) velocity[f.axis()][std::size_t(f.face)] = flux[f.axis()][std::size_t(f.face)];
+}
+
 void Openings::set_ghosts(double t, Interphase& solids) const {
   for_each_face(gates_, [&](const Gate& gate, std::size_t n, std::size_t face, std::size_t inside, std::size_t beyond) {
     Field& phi = solids.fraction[gate.species];
@@ -148,6 +155,8 @@ void Openings::set_ghosts(double t, Interphase& solids) const {
   for_each_face(discharges_, [&](const Gate& gate, std::size_t, std::size_t face, std::size_t, std::size_t) {
     for (core::FaceField& velocity : solids.velocity) extend_beyond(grid_, gate.at, Index(face), velocity[gate.axis()]);
   });
+  for (const OpenFace& f : open_faces_)
+    for (core::FaceField& velocity : solids.velocity) extend_beyond(grid_, f.at, f.face, velocity[f.axis()]);
 }
 
 void Openings::set_rate_ghosts(double t, std::size_t j, Interphase& solids) const {
@@ -170,6 +179,10 @@ void Openings::cross(double t, std::size_t j, Interphase& solids, core::FaceFiel
   for_each_face(gates_, clear);
   for_each_face(discharges_, clear);
   const double* phi = solids.fraction[j].data();
+  for (const OpenFace& f : open_faces_) {
+    const double u = solids.velocity[j][f.axis()][std::size_t(f.face)];
+    flux[f.axis()][std::size_t(f.face)] = f.leaving(u) * phi[f.inside];
+  }
   if (open_) {
     const Index s = grid_.stride(1);
     const double* u = solids.velocity[j][1].data();

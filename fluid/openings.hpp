@@ -10,6 +10,7 @@
 #include "core/case/scene.hpp"
 #include "fluid/inlet.hpp"
 #include "fluid/interphase.hpp"
+#include "fluid/open_face.hpp"
 
 namespace polybed::fluid {
 
@@ -43,11 +44,14 @@ class Openings {
   [[nodiscard]] core::FaceField make_passed() const;
   /// Sets velocities on fed faces to the feed's, and on faces of a discharge to the outgoing mixture's.
   void set_velocities(double t, Interphase& solids) const;
+  /// Sets velocities on the open faces of the sides, where solids move as the mixture.
+  /// \param flux  J, m/s
+  void follow(const core::FaceField& flux, Interphase& solids) const;
   /// Sets ghost fractions beyond fed faces so that the mean on the face is the feed's, F_j/U_j; in sides also the
   /// ghosts of the velocities.
   void set_ghosts(double t, Interphase& solids) const;
   /// Fluxes of species j through the ends and sides: the feed, the discharge from adjacent cells, and the outflow
-  /// through an open top, phi_j max(U_j, 0), never inward. Fills solids.passed_rate.
+  /// through an open top or side, phi_j max(U_j, 0), never inward. Fills solids.passed_rate.
   void cross(double t, std::size_t j, Interphase& solids, core::FaceField& flux) const;
   /// Sets ghosts of the rate of species j's fraction beyond fed faces: the mean on the face is the rate of F_j/U_j.
   void set_rate_ghosts(double t, std::size_t j, Interphase& solids) const;
@@ -88,7 +92,8 @@ class Openings {
   bool open_ = false;
   double greatest_ = 0;
   std::vector<Gate> gates_;       ///< feeds
-  std::vector<Gate> discharges_;  ///< discharges of all species
+  std::vector<Gate> discharges_;  ///< discharges of all species with a given flow
+  std::vector<OpenFace> open_faces_;
   std::vector<Passage> passages_;
 };
 

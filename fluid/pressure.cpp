@@ -34,6 +34,7 @@ core::PoissonResult Pressure::solve(const FluxRate& rate, const core::FaceField&
 
 void set_outlet_pressure(const core::Grid& grid, const Boundaries& boundaries, Field& pressure) {
   boundaries.fill_cells(pressure);
+  for (const OpenFace& f : boundaries.open_faces()) pressure[std::size_t(f.beyond)] = 0;
   if (!boundaries.has_outlet() || !grid.ends(1, 1)) return;
   core::Box beyond = core::owned_cells(grid);
   beyond.lo[1] = grid.cells[1];

@@ -47,7 +47,8 @@ void for_each_gradient_row(const core::Grid& grid, const core::Box& box, int axi
   });
 }
 
-/// Sets p = 0 half a cell above the outlet, and the ghosts owned by other cells. Collective.
+/// Sets p = 0 half a cell beyond the outlet and the open faces of the sides, and the ghosts owned by other cells.
+/// Collective.
 void set_outlet_pressure(const core::Grid& grid, const Boundaries& boundaries, core::Field& pressure);
 
 /// Largest |div J| h / U over the block's cells: the error in conservation of volume. U: a velocity scale, m/s.

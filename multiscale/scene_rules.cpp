@@ -9,8 +9,12 @@
 #include "closures/max_packing.hpp"
 #include "closures/sphere.hpp"
 #include "core/case/file.hpp"
+#include "core/case/size_classes.hpp"
 #include "core/error.hpp"
+#include "core/numerics/blocks.hpp"
 #include "dem/rules.hpp"
+#include "fluid/inlet.hpp"
+#include "fluid/open_face.hpp"
 #include "multiscale/calibrate/plan.hpp"
 #include "multiscale/particle_requirements.hpp"
 #include "multiscale/resolve/rules.hpp"
@@ -107,6 +111,31 @@ Broken more_than_the_column_takes(const core::Scene& scene) {
   return share > densest ? Broken({fmt::format("{:.3g}", share), fmt::format("{:.3g}", densest)}) : Broken();
 }
 
+/// Ports that share a face of a cell with a discharge whose flow follows from its pressure.
+core::Broken beside_an_open_side(const core::Scene& scene) {
+  core::Broken broken;
+  if (!fluid::has_open_sides(scene)) return broken;
+  const core::Grid grid = core::grid_of(scene, nullptr);
+  const auto shares = [&](const auto& part) { return fluid::face_shares(grid, part.from, part.to, part.at); };
+  for (std::size_t n = 0; n < scene.discharges.size(); ++n) {
+    if (!scene.discharges[n].pressure) continue;
+    const std::vector<double> own = shares(scene.discharges[n]);
+    const auto see = [&](const auto& parts, const char* table, std::size_t but) {
+      for (std::size_t k = 0; k < parts.size(); ++k) {
+        if (k == but || parts[k].at != scene.discharges[n].at) continue;
+        const std::vector<double> other = shares(parts[k]);
+        bool meet = false;
+        for (std::size_t f = 0; f < own.size(); ++f) meet = meet || (own[f] > 0 && other[f] > 0);
+        if (meet) broken.add({std::to_string(n + 1), table, std::to_string(1 + *core::entry_of(scene, parts, k))}, n);
+      }
+    };
+    see(scene.jets, "jet", scene.jets.size());
+    see(scene.feeds, "feed", scene.feeds.size());
+    see(scene.discharges, "discharge", n);
+  }
+  return broken;
+}
+
 /// Rules for the fluid and the bed, whatever effects there are.
 std::vector<core::Rule> scene_rules_of_both() {
   return {{{"fluid.name", "fluid.temperature", "fluid.density", "fluid.viscosity"}, "{}", fluid_unknown},
@@ -127,6 +156,10 @@ std::vector<core::Rule> scene_rules_of_both() {
            "layer.solids_fraction = {}: spheres of these sizes fill at most {} of the volume, and about 0.6 when they "
            "settle",
            layers_denser_than_spheres_pack},
+          {{"discharge.pressure", "discharge.", "jet.", "feed.", "column.", "species.name", "species.diameter"},
+           "[[discharge]] number {} has a pressure and shares a cell with [[{}]] number {}: move them apart, or take "
+           "smaller cells",
+           beside_an_open_side},
           {{"bed.start", "species.diameter", "bed.volume_share", "bed.particles", "column.", "dem.skin",
             "bed.static_height", "bed.solids_fraction"},
            "bed.start = \"random\": the particles would fill {} of the column, spheres of these sizes fill at most {}: "

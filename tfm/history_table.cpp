@@ -2,7 +2,7 @@
 
 namespace polybed::tfm {
 
-measures::Table<Told> history_table(bool compressible, bool openings) {
+measures::Table<Told> history_table(bool compressible, bool openings, bool open_sides) {
   measures::Table<Told> table{
       {"max_solids_fraction", "1", "greatest phi of a cell", [](const Told& t) { return t.invariants.most_solids; }},
       {"min_fraction", "1", "least phi_j of a cell if negative, else 0",
@@ -18,6 +18,10 @@ measures::Table<Told> history_table(bool compressible, bool openings) {
     table.push_back({"fluid_out", "kg", "of a compressible fluid: out through top and sides since the start",
                      [](const Told& t) { return t.account.out; }});
   }
+  if (open_sides)
+    table.push_back({"overflow", "m3_s",
+                     "with discharge.pressure: volume of fluid and solids that leaves there a second",
+                     [](const Told& t) { return t.overflow; }});
   if (openings) {
     table.push_back({"in", "kg", "fed since the start; if solids can leave or are fed",
                      [](const Told& t, measures::Members j) { return measures::sum_of(t.in, j); }});

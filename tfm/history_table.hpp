@@ -15,11 +15,13 @@ struct Told {
   double fluid_mass = 0;        ///< of a compressible fluid, kg
   fluid::MassAccount account;   ///< of that fluid
   std::vector<double> in, out;  ///< through open ends, kg, [species]
+  double overflow = 0;          ///< through sides with a given pressure, m3/s
 };
 
 /// The columns after the bed's.
 /// \param compressible  whether the fluid is compressible
 /// \param openings      whether an end is open to solids
-[[nodiscard]] measures::Table<Told> history_table(bool compressible, bool openings);
+/// \param open_sides    whether a discharge has a pressure
+[[nodiscard]] measures::Table<Told> history_table(bool compressible, bool openings, bool open_sides);
 
 }  // namespace polybed::tfm

@@ -66,6 +66,11 @@ class Model : public core::Simulation {
   /// Times at which the inflow changes its rate or jumps: a run must stop there.
   [[nodiscard]] std::vector<double> breakpoints() const;
   /// Volume of each species that has entered and left since the start, m3, for the fields last shown.
+  /// Whether a discharge has a pressure, and the volume flow out through those that have, m3/s. Collective.
+  [[nodiscard]] bool has_open_sides() const { return has_open_sides_; }
+  [[nodiscard]] double overflow() const {
+    return fluid::outflow(constants().grid, boundaries().open_faces(), fields().fluid.flux);
+  }
   [[nodiscard]] std::vector<fluid::Passed> passed() const { return constants().openings.passed(fields().solids); }
   /// Explicit or implicit steps.
   [[nodiscard]] core::TfmIntegrator integrator_kind() const { return integrator_.kind; }
@@ -109,6 +114,7 @@ class Model : public core::Simulation {
   core::Timers& timers_;
   core::Tfm options_;
   core::Momentum momentum_;
+  bool has_open_sides_;
   RightHandSide equations_;
   IntegratorChoice integrator_;
   StateLayout layout_;

@@ -125,7 +125,8 @@ Observers::Observers(const Model& model, const std::filesystem::path& directory,
       ranks_(model.constants().grid.ranks.get()),
       invariants_(std::move(initial_mass), model.constants().name, rtol, model.effects().compressible != nullptr),
       history_(measures::bed_table(),
-               history_table(model.effects().compressible != nullptr, model.constants().openings.present()),
+               history_table(model.effects().compressible != nullptr, model.constants().openings.present(),
+                             model.has_open_sides()),
                model.constants().name) {
   const Constants& constants = model.constants();
   const bool compressible = model.effects().compressible != nullptr;
@@ -205,7 +206,7 @@ Told Observers::told(const measures::Watched& column, double time) {
   const std::vector<fluid::Passed> passed = model_.passed();
   const measures::InvariantValues now = invariants_.see(column, constants.density, force_balance_ - 1, time, passed,
                                                         account ? account->error(fluid_mass) : 0);
-  Told told{now, fluid_mass, account.value_or(fluid::MassAccount{}), {}, {}};
+  Told told{now, fluid_mass, account.value_or(fluid::MassAccount{}), {}, {}, model_.overflow()};
   for (std::size_t j = 0; j < passed.size(); ++j) {
     told.in.push_back(passed[j].in * constants.density[j]);
     told.out.push_back(passed[j].out * constants.density[j]);

@@ -129,6 +129,10 @@ void Preconditioner::divergence_of_solids(std::size_t first, std::size_t last, F
         for (auto f = std::size_t(begin); f < std::size_t(end); ++f)
           flux[f] += fraction_[a][j][f] * face_value_[a][j][f];
       });
+    for (const fluid::OpenFace& f : boundaries_.open_faces())  // solids move as the mixture there
+      for (std::size_t j = first; j < last && f.axis() == a; ++j)
+        flux[std::size_t(f.face)] +=
+            fraction_[a][j][std::size_t(f.face)] * face_value_[a][rows_ - 1][std::size_t(f.face)];
     boundaries_.join(flux, axis);
   }
   core::divergence(grid, flux_, out);
@@ -173,6 +177,10 @@ void Preconditioner::correct_faces() {
                                      for (Index f = begin; f < end; ++f) v[f] -= to_stress[f] * gradient(f);
                                    });
     }
+  }
+  for (const fluid::OpenFace& f : boundaries_.open_faces()) {
+    const auto a = f.axis(), at = std::size_t(f.face);
+    face_value_[a][rows_ - 1][at] -= response_pressure_[a][rows_ - 1][at] * f.gradient(dp_);
   }
 }
 

@@ -35,6 +35,17 @@ bool Preconditioner::setup(const Fields& fields, double c) {
       build(fields, density, axis, at_top, boundaries_.open() ? Place::outlet : Place::screen);
     });
   }
+  for (const fluid::OpenFace& f : boundaries_.open_faces()) {
+    const auto a = f.axis(), at = std::size_t(f.face);
+    const double response = fields.flux_rate.mobility[a][at] / c;
+    coupling_[0][a][at] = response_pressure_[a][rows_ - 1][at] = response;
+    coupling_[2][a][at] = 0;
+    for (std::size_t j = 0; j < constants_.species(); ++j) {
+      const bool leaves = f.outward * fields.fluid.flux[a][at] > 0;
+      fraction_[a][j][at] = leaves ? fields.solids.fraction[j][std::size_t(f.inside)] : 0.0;
+      coupling_[2][a][at] += fraction_[a][j][at] * response;
+    }
+  }
   for (core::FaceField& coefficient : coupling_) {
     boundaries_.join(coefficient);
     core::weigh_faces(grid, coefficient);

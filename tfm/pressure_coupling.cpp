@@ -35,6 +35,10 @@ void subtract_pressure_gradient(const Constants& constants, const fluid::Boundar
                                    });
     }
   }
+  for (const fluid::OpenFace& f : boundaries.open_faces()) {
+    const auto at = std::size_t(f.face);
+    fields.flux_rate.free[f.axis()][at] -= fields.flux_rate.mobility[f.axis()][at] * f.gradient(p);
+  }
   if (constants.openings.present()) constants.openings.hold(fields.solids.acceleration);
   core::hold_closed(grid, fields.flux_rate.free);
   for (core::FaceField& acceleration : fields.solids.acceleration) core::hold_closed(grid, acceleration);

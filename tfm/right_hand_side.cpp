@@ -131,6 +131,7 @@ std::optional<fluid::MassFlow> RightHandSide::mass_flow(double t, const StateLay
                                                         std::span<const double> y) {
   layout.unpack(y, fields_.solids, fields_.fluid);
   set_inlet_velocity(t);
+  constants_.openings.follow(fields_.fluid.flux, fields_.solids);
   if (!effects_.compressible->set_density(fields_.fluid)) return std::nullopt;
   fluid_flux_through_ends(constants_, boundaries_, side_of(t), fields_, flux_);
   return fluid::mass_flow(constants_.grid, boundaries_, fields_.fluid, fields_.fluid.compression.flux);
@@ -180,7 +181,10 @@ void RightHandSide::set_flux_rate(double t) {
 
 /// Fills ghosts of the unknowns, and computes composition and fluid velocity, which need no closure.
 void RightHandSide::fill_ghosts(double t) {
-  if (constants_.openings.present()) constants_.openings.set_velocities(side_of(t), fields_.solids);
+  if (constants_.openings.present()) {
+    constants_.openings.set_velocities(side_of(t), fields_.solids);
+    constants_.openings.follow(fields_.fluid.flux, fields_.solids);
+  }
   boundaries_.fill(state_ghosts_);
   if (constants_.openings.present()) {
     constants_.openings.set_ghosts(side_of(t), fields_.solids);
@@ -192,6 +196,8 @@ void RightHandSide::fill_ghosts(double t) {
   fluid::fluid_velocity(constants_.grid, fields_.solids, fields_.fluid);
   boundaries_.fill_velocity(fields_.fluid.velocity, fluid::WallSlip::no_slip);
   inlet_.extend(fields_.fluid.velocity);
+  for (const fluid::OpenFace& f : boundaries_.open_faces())
+    fluid::extend_beyond(constants_.grid, f.at, f.face, fields_.fluid.velocity[f.axis()]);
 }
 
 /// The side of a breakpoint or jump of the inlet for a time: the end of a step lies before it.

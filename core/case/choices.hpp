@@ -22,9 +22,9 @@ constexpr std::array<std::string_view, 3> names(ColumnShape) { return {"box", "c
 enum class WallShape { flat, cylinder, cone, rod };
 constexpr std::array<std::string_view, 4> names(WallShape) { return {"flat", "cylinder", "cone", "rod"}; }
 
-/// Whether solids leave at the top.
-enum class Outlet { screen, open };
-constexpr std::array<std::string_view, 2> names(Outlet) { return {"screen", "open"}; }
+/// Whether solids leave at the top; under a lid nothing does.
+enum class Outlet { screen, open, lid };
+constexpr std::array<std::string_view, 3> names(Outlet) { return {"screen", "open", "lid"}; }
 
 enum class Compressibility { incompressible, tait, ideal_gas };
 constexpr std::array<std::string_view, 3> names(Compressibility) { return {"incompressible", "tait", "ideal_gas"}; }

@@ -169,8 +169,14 @@ std::vector<Rule> place_rules(const std::string& table, std::vector<Part> Scene:
                [](const Column& column, ColumnFace face) { return column.dimensions == 2 && axis_of(face) == 2; }),
           rule("column.sides", " and column.sides = \"periodic\" contradict each other: joined sides have no wall",
                [](const Column& column, ColumnFace) { return column.sides == Boundary::periodic; }),
-          rule("column.shape", " needs column.shape = \"box\": a round column has no such side yet",
-               [](const Column& column, ColumnFace) { return column.shape != ColumnShape::box; })};
+          rule("column.shape", " is no side of an axisymmetric column, whose wall is \"right\"",
+               [](const Column& column, ColumnFace face) { return column.around_axis() && face == ColumnFace::left; }),
+          rule("column.profile", " and column.profile cannot be combined yet: leave column.profile out",
+               [](const Column& column, ColumnFace) { return column.around_axis() && column.is_tapered(); }),
+          rule("column.shape",
+               " in a cylinder, whose wall cuts cells, has no port yet: use column.shape = \"axisymmetric\" for a ring "
+               "around the wall, or \"box\"",
+               [](const Column& column, ColumnFace) { return column.is_round(); })};
 }
 
 std::vector<Rule> jet_rules() {
@@ -190,6 +196,34 @@ std::vector<Rule> discharge_rules() {
                    "discharge.at = \"top\": a discharge lies in the bottom or a side; solids leave through the top by "
                    "column.outlet = \"open\"",
                    [](const Scene& scene) { return at_the_top(scene.discharges); }});
+  const auto add = [&](const std::string& key, const std::string& message, auto wrong) {
+    rules.push_back({{"discharge.at", "discharge.pressure", key}, message, [wrong](const Scene& scene) {
+                       Broken broken;
+                       for (std::size_t n = 0; n < scene.discharges.size(); ++n)
+                         if (wrong(scene, scene.discharges[n])) broken.add({std::to_string(n + 1)}, n);
+                       return broken;
+                     }});
+  };
+  add("discharge.superficial_velocity",
+      "[[discharge]] number {} takes discharge.superficial_velocity or, in a side, discharge.pressure: give one of "
+      "them",
+      [](const Scene&, const Discharge& d) { return d.superficial_velocity.empty() != d.pressure.has_value(); });
+  add("discharge.pressure",
+      "[[discharge]] number {} in the bottom cannot have a pressure, as the distributor's flow is given: use "
+      "discharge.superficial_velocity",
+      [](const Scene&, const Discharge& d) { return d.pressure && d.at == ColumnFace::bottom; });
+  add("inlet.at",
+      "[[discharge]] number {} has a pressure, but inlet.at = \"top\" gives the flow at both ends: use "
+      "discharge.superficial_velocity, or column.outlet = \"lid\" without inlet.at",
+      [](const Scene& s, const Discharge& d) { return d.pressure && s.inlet.at == ColumnEnd::top; });
+  rules.push_back(
+      {{"column.outlet", "discharge.pressure", "discharge.at"},
+       "column.outlet = \"lid\" needs a [[discharge]] with discharge.pressure, through which leaves what enters",
+       [](const Scene& s) {
+         const auto open = [](const Discharge& d) { return d.pressure.has_value(); };
+         return broken_if(s.column.outlet == Outlet::lid &&
+                          std::none_of(s.discharges.begin(), s.discharges.end(), open));
+       }});
   rules.push_back({{"discharge.from", "discharge.to", "discharge.at", "column.size"},
                    "two discharges overlap: [[discharge]] number {} and {}",
                    [](const Scene& scene) { return overlap_each_other(scene.discharges); }});

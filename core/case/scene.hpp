@@ -190,6 +190,7 @@ struct Discharge {
   ColumnFace at = ColumnFace::right;
   std::vector<double> from, to;                                 ///< as of a feed
   std::vector<std::pair<double, double>> superficial_velocity;  ///< of the mixture, out of the column, m/s
+  std::optional<double> pressure = {};  ///< outside a side, net: the flow follows from it, instead of the velocity, Pa
 };
 
 /// How effects with the word "auto" are chosen, and how neglected effects are monitored.

@@ -45,7 +45,9 @@ Table column_table() {
               help("direction in the order of size, of any length; default: down; another one in the TFM needs walls, "
                    "and column.closed = true or inlet.at = \"top\"")),
           key(&Column::outlet, "outlet",
-              help("top of the column: a screen stops solids; through an open one they leave and are counted")),
+              help("top of the column: a screen stops solids; through an open one they leave and are counted; a lid "
+                   "stops "
+                   "the fluid, too, which leaves through a [[discharge]] with a pressure")),
           key(&Column::closed, "closed", help("walls all round: no inlet and no outlet")),
       });
 }
@@ -211,10 +213,13 @@ Table discharge_table() {
                        help("bottom or side through which fluid and solids leave together, as they are in the cells "
                             "next to it; in the DEM a hole with a sharp rim, also where nothing flows")),
                    key(&Discharge::superficial_velocity, "superficial_velocity", dimension::velocity, range(0, 1e3),
-                       Mark::required,
                        help("volume of the mixture per area of the discharge and time, out of the column; a velocity "
                             "or a table as of the inlet. What enters in excess leaves at the top, also with inlet.at = "
                             "\"top\". No effect without a fluid")),
+                   key(&Discharge::pressure, "pressure", dimension::pressure, range(-1e8, 1e8),
+                       help("instead of the velocity, in a side: outside, less the pressure of the fluid at rest that "
+                            "stands up to the top; 0: an overflow into a vessel of clear fluid. The flow follows, and "
+                            "fluid can come back, solids cannot")),
                    key(&Discharge::from, "from", dimension::length, range(0, 1e3),
                        help("low corner, as of a jet; default: all of the bottom or side")),
                    key(&Discharge::to, "to", dimension::length, range(0, 1e3), help("high corner")),

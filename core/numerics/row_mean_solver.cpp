@@ -164,14 +164,34 @@ bool RowMeanSolver::average(const FaceSpans& coefficient, std::span<const double
       across_[0][r] = 0.5 * (across_[0][r] * grid_.spacing[0] * grid_.spacing[0] +
                              across_[1][r] * grid_.spacing[2] * grid_.spacing[2]);
     for (std::vector<double>& across : across_) across[r] *= grid_.height(row) / grid_.spacing[1];
-    diagonal_[r] = 0;
+    diagonal_[r] = open_sides(coefficient, row);
     if (shift.empty()) continue;
+    double sum = 0;
     for_each_row(grid_, {0, row, 0}, {n[0], row + 1, n[2]}, [&](Index begin, Index end) {
-      for (auto c = std::size_t(begin); c < std::size_t(end); ++c) diagonal_[r] += shift[c];
+      for (auto c = std::size_t(begin); c < std::size_t(end); ++c) sum += shift[c];
     });
-    diagonal_[r] /= open_cells_of_layer(grid_);
+    diagonal_[r] += sum / open_cells_of_layer(grid_);
   }
   return fine;
+}
+
+/// Part of a row's mean diagonal from faces in the sides with a pressure outside.
+double RowMeanSolver::open_sides(const FaceSpans& coefficient, int row) const {
+  double sum = 0;
+  for (const int axis : {0, 2}) {
+    const auto a = std::size_t(axis);
+    if (axis >= grid_.dimensions || grid_.periodic[a]) continue;
+    for (const int side : {0, grid_.cells[a]}) {
+      Box faces{{0, row, 0}, {grid_.cells[0], row + 1, grid_.cells[2]}};
+      faces.lo[a] = side;
+      faces.hi[a] = side + 1;
+      for_each_row(grid_, faces, [&](Index begin, Index end) {
+        for (auto f = std::size_t(begin); f < std::size_t(end); ++f)
+          sum += coefficient[a][f] / (grid_.spacing[a] * grid_.spacing[a]);
+      });
+    }
+  }
+  return sum / open_cells_of_layer(grid_);
 }
 
 /// Gaussian elimination up the column, for each mode: pivot = d - up^2/(pivot below).

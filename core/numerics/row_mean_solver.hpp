@@ -39,6 +39,7 @@ class RowMeanSolver {
   [[nodiscard]] static Modes modes_of(const Grid& grid, int axis);
   [[nodiscard]] static Modes modes_of_rings(const Grid& grid);
   [[nodiscard]] bool average(const FaceSpans& coefficient, std::span<const double> shift);
+  [[nodiscard]] double open_sides(const FaceSpans& coefficient, int row) const;
   void factorise();
   void precondition(const Field& r, Field& z);
   void sweep();

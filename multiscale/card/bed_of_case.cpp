@@ -362,7 +362,7 @@ double least_velocity(const core::Column& column, double velocity) {
 }
 
 Fluidisation carried(const core::Scene& scene) {
-  return scene.column.outlet == core::Outlet::screen ? Fluidisation::carried_up : Fluidisation::carried_out;
+  return scene.column.outlet == core::Outlet::open ? Fluidisation::carried_out : Fluidisation::carried_up;
 }
 
 bool is_carried(Fluidisation state) { return state == Fluidisation::carried_up || state == Fluidisation::carried_out; }

@@ -64,6 +64,16 @@ class CoupledCases(Scratch):
         self.assertEqual(record["particles"], 990 + fed - out)
         self.assertTrue(all(invariant["held"] for invariant in record["invariants"]), record["invariants"])
 
+    def test_beads_flow_over_through_a_pipe_under_a_lid(self):
+        """What leaves is what enters: 15 mm/s through 24 by 3 mm, and 8 mm/s of beads through 6 by 3 mm."""
+        record, directory = self.dem("overflow-pipe", run__until=0.3)
+        fed, out = (record[key]["beads"]["particles"] for key in ("feed", "outflow"))
+        self.assertGreater(out, 10)
+        self.assertEqual(record["particles"], 990 + fed - out)
+        self.assertTrue(all(invariant["held"] for invariant in record["invariants"]), record["invariants"])
+        flow = history(directory)["overflow_m3_s"][-1]
+        self.assertAlmostEqual(flow / (15e-3 * 24e-3 * 3e-3 + 8e-3 * 6e-3 * 3e-3), 1, delta=1e-6)
+
     def test_a_graded_freeboard_leaves_the_bed_as_it_is(self):
         """The flow through a held bed, whose cells are the same; 1e-8 is the tolerance of the pressure."""
         drops = []

@@ -1,5 +1,5 @@
 """For each rule of jets, feeds and discharges in sides what breaks it, in words of --set as in case_rules_test.py."""
-from wall_rules import AROUND, ROUND
+from wall_rules import AROUND, ROUND, TAPERED
 
 
 def part(table, *parts):
@@ -9,12 +9,20 @@ def part(table, *parts):
     return f"{table}=[" + ", ".join(entries) + "]"
 
 
+def open_side(at, low, high, more=""):
+    """A discharge with a pressure."""
+    return f'discharge=[{{pressure=0, at="{at}", from={low}, to={high}{more}}}]'
+
+
 LOW, HIGH = ([0.02], [0.04]), ([0.1], [0.15])
 PORTS = {
     **{f'{table}.at = "{{}}"{told}': [part(table, (at, *LOW)), *words] for table in ("jet", "feed", "discharge") for told, at, words in (
         (": a column of two dimensions has two sides, left and right", "front", []),
         (' and column.sides = "periodic" contradict each other: joined sides have no wall', "left", ["column.sides=periodic"]),
-        (' needs column.shape = "box": a round column has no such side yet', "right", [AROUND]))},
+        (' is no side of an axisymmetric column, whose wall is "right"', "left", [AROUND]),
+        (" and column.profile cannot be combined yet: leave column.profile out", "right", TAPERED))},
+    **{f'{table}.at = "{{}}" in a cylinder, whose wall cuts cells, has no port yet: use column.shape = "axisymmetric" for a ring around the '
+       'wall, or "box"': [part(table, ("left", [0.02, 0.02], [0.04, 0.04])), *ROUND] for table in ("jet", "feed", "discharge")},
     'jet.at = "top": a jet enters through the bottom or a side': [part("jet", ("top", *LOW))],
     'discharge.at = "top": a discharge lies in the bottom or a side; solids leave through the top by column.outlet = "open"': [
         part("discharge", ("top", *LOW))],
@@ -24,6 +32,15 @@ PORTS = {
     "a discharge from {} to {} m does not lie {}, 0 to {} m": [part("discharge", ("left", [0.1], [0.3]))],
     "two discharges overlap: [[discharge]] number {} and {}": [part("discharge", ("left", *LOW), ("left", [0.03], [0.05]))],
     "[[discharge]] number {} overlaps [[{}]] number {}": [part("discharge", ("left", *LOW)), part("jet", ("right", *LOW), ("left", *LOW))],
+    "[[discharge]] number {} takes discharge.superficial_velocity or, in a side, discharge.pressure: give one of them": [
+        open_side("left", *LOW, more=", superficial_velocity=0.1")],
+    "[[discharge]] number {} in the bottom cannot have a pressure, as the distributor's flow is given: use discharge.superficial_velocity": [
+        open_side("bottom", *LOW)],
+    '[[discharge]] number {} has a pressure, but inlet.at = "top" gives the flow at both ends: use discharge.superficial_velocity, or '
+    'column.outlet = "lid" without inlet.at': [open_side("left", *LOW), "inlet.at=top"],
+    'column.outlet = "lid" needs a [[discharge]] with discharge.pressure, through which leaves what enters': ["column.outlet=lid"],
+    "[[discharge]] number {} has a pressure and shares a cell with [[{}]] number {}: move them apart, or take smaller cells": [
+        open_side("left", [0.02], [0.034]), part("jet", ("left", [0.036], [0.05]))],
     "[[discharge]] cannot act: column.closed = true": ["column.closed=true", part("discharge", ("left", *LOW))],
     'column.ends = "periodic" and [[discharge]] contradict each other': ["column.ends=periodic", part("discharge", ("left", *LOW))],
     "[[discharge]] cannot act in a sheared box: its fluid moves with its flow": ["dem.shear_rate=1", part("discharge", ("left", *LOW))],

@@ -133,6 +133,10 @@ class FeedRanks(Scratch):
                                   steps=dem_ranks_test.FEWER)
         self.assertEqual(record["feed"]["b"]["particles"], 17)  # 40 mm/s of 28.8 mm2 for 4 ms
 
+    def test_particles_that_cross_a_side_with_a_pressure(self):
+        side = SIDES.replace('superficial_velocity = "0.2 m/s"', 'pressure = "-20 Pa"')
+        self.check_sides(self.scene(side, common=dem_ranks_test.WITH_FLUID), restart=(3, 2), numbers=(1, 2, 3), steps=dem_ranks_test.FEWER)
+
     def test_particles_that_cross_the_sides(self):
         record = self.check_sides(self.scene(THROWN, dem_ranks_test.in_corner()), restart=(3, 2), numbers=(1, 2, 3))
         self.assertGreater(record["outflow"]["a"]["particles"], 5)

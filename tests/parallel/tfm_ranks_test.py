@@ -143,12 +143,15 @@ class Ranks(Scratch):
         ports = ('jet=[{at="left", from=[0.02], to=[0.1], superficial_velocity=0.1}]',
                  'feed=[{species="fine", at="left", from=[0.2], to=[0.4], superficial_velocity=2e-3, velocity=0.05}]',
                  'discharge=[{at="right", from=[0.03], to=[0.5], superficial_velocity=[[0, 0], [0.03, 0.02]]}]')
-        words = [*FLAT, *FIXED, *(word for port in ports for word in ("--set", port))]
-        self.check_equal(*words)
-        cut = self.folder / "cut"
-        self.on(RANKS[-1], CASE, *words, "--until", "0.02", "-o", cut)
-        self.on(1, CASE, *words, "--resume", "-o", cut)
-        self.assertEqual(self.largest_difference(self.folder / "on1", cut), 0)
+        overflow = ('discharge=[{at="right", from=[0.03], to=[0.5], pressure=-20}, {at="left", from=[0.12], to=[0.18], pressure=50}]',
+                    'column.outlet="lid"')
+        for more in (ports[2:], overflow):
+            words = [*FLAT, *FIXED, *(word for port in (*ports[:2], *more) for word in ("--set", port))]
+            self.check_equal(*words, "--force")
+            cut = self.folder / f"cut{len(more)}"
+            self.on(RANKS[-1], CASE, *words, "--until", "0.02", "-o", cut)
+            self.on(1, CASE, *words, "--resume", "-o", cut)
+            self.assertEqual(self.largest_difference(self.folder / "on1", cut), 0)
 
     def test_momentum_of_second_order_is_the_same(self):
         """Fluxes of the solids are taken from neighbours across every cut, corners included."""
