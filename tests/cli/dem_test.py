@@ -144,7 +144,7 @@ class Files(Dem):
                          "--out", self.folder / "drawn")
         self.assertEqual(len(done.stdout.split()), 4)
         text = (self.folder / "drawn/history.svg").read_text()  # matplotlib writes each text as a comment beside its glyphs
-        self.assertIn("energy (J)", text)
+        self.assertIn("energy of the", text)
         self.assertNotIn("pressure drop", text)
         self.assertNotIn("does not close", text)
 
