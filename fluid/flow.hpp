@@ -62,7 +62,9 @@ class Flow {
   [[nodiscard]] const core::FaceField& convected() const { return convected_; }
   /// Whether a discharge has a pressure, and the flow out through the open faces of the sides, m3/s.
   [[nodiscard]] bool has_open_sides() const { return has_open_sides_; }
-  [[nodiscard]] double overflow() const { return outflow(grid_, boundaries_.open_faces(), fluid_.velocity); }
+  [[nodiscard]] double overflow() const {
+    return has_open_sides_ ? outflow(grid_, boundaries_.open_faces(), fluid_.velocity) : 0;
+  }
   /// Null for an incompressible fluid.
   [[nodiscard]] const Compressible* compressible() const { return compressible_ ? &*compressible_ : nullptr; }
   /// Recomputes the pressure's gradient from the pressure, after the state was set from outside.

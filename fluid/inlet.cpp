@@ -64,7 +64,8 @@ double overlap(const core::Grid& grid, int axis, int m, double from, double to) 
   const double h = axis == 1 ? grid.height(m) : grid.spacing[std::size_t(axis)];
   const double low = std::max(from, grid.low(axis, m)), high = std::min(to, grid.low(axis, m + 1));
   const bool ring = axis == 0 && grid.metric && grid.metric->around_axis;
-  return std::max(0.0, high - low) / h * (ring ? (low + high) / ((2 * m + 1) * h) : 1.0);
+  if (constexpr double round_off = 1e-9; high - low < round_off * h) return 0;
+  return (high - low) / h * (ring ? (low + high) / ((2 * m + 1) * h) : 1.0);
 }
 
 /// Factor for the shares of a part of a round column, so that with the open shares of its faces they have the part's

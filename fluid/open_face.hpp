@@ -3,12 +3,14 @@
 // Fluid and solids move alike in them, without friction, as a mixture of density rho_m: for the share s of a face,
 // J = s u, and the outward normal n, with the pressure p_out half a cell outside,
 //
-//   dJ/dt = -s [max(u, 0) (u - u_in)/h + (p_out - p_in)/(rho_m h)],
+//   dJ/dt = -s [max(u, 0) (u - u_in)/h - min(u, 0) u/h + (p_out - p_in)/(rho_m h)],
 //
-// u_in the fluid's velocity on the next face inside. Solids leave with the mixture and never come back.
+// u_in the fluid's velocity on the next face inside; outside the fluid is at rest. Solids leave with the mixture and
+// never come back.
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "core/case/scene.hpp"
@@ -31,7 +33,8 @@ struct OpenFace {
   /// Acceleration of J by its own convection, along the axis, m/s2.
   [[nodiscard]] double convection(const core::Field& flux, const core::Field& velocity) const {
     const double u = outward * flux[std::size_t(face)] / share;
-    return -outward * share * std::max(u, 0.0) * (u - outward * velocity[std::size_t(within)]) / spacing;
+    const double before = u > 0 ? outward * velocity[std::size_t(within)] : 0;
+    return -outward * share * std::abs(u) * (u - before) / spacing;
   }
   /// Gradient of a pressure that is 0 outside, along the axis, Pa/m.
   [[nodiscard]] double gradient(const core::Field& pressure) const {

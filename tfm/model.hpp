@@ -65,12 +65,12 @@ class Model : public core::Simulation {
   [[nodiscard]] const fluid::Inlet& inlet() const { return equations_.inlet(); }
   /// Times at which the inflow changes its rate or jumps: a run must stop there.
   [[nodiscard]] std::vector<double> breakpoints() const;
-  /// Volume of each species that has entered and left since the start, m3, for the fields last shown.
   /// Whether a discharge has a pressure, and the volume flow out through those that have, m3/s. Collective.
   [[nodiscard]] bool has_open_sides() const { return has_open_sides_; }
   [[nodiscard]] double overflow() const {
-    return fluid::outflow(constants().grid, boundaries().open_faces(), fields().fluid.flux);
+    return has_open_sides_ ? fluid::outflow(constants().grid, boundaries().open_faces(), fields().fluid.flux) : 0;
   }
+  /// Volume of each species that has entered and left since the start, m3, for the fields last shown.
   [[nodiscard]] std::vector<fluid::Passed> passed() const { return constants().openings.passed(fields().solids); }
   /// Explicit or implicit steps.
   [[nodiscard]] core::TfmIntegrator integrator_kind() const { return integrator_.kind; }

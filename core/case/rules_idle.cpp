@@ -59,7 +59,8 @@ std::vector<Rule> in_a_closed_column() {
        {"inlet.at", "inlet.at = \"top\"", is_given_at_the_top},
        {"feed.species", "[[feed]]", [](const Scene& s) { return !s.feeds.empty(); }},
        {"discharge.at", "[[discharge]]", has_discharges},
-       {"column.outlet", "column.outlet = \"open\"", [](const Scene& s) { return s.column.outlet == Outlet::open; }}},
+       {"column.outlet", "column.outlet = \"open\"", [](const Scene& s) { return s.column.outlet == Outlet::open; }},
+       {"column.outlet", "column.outlet = \"lid\"", [](const Scene& s) { return s.column.outlet == Outlet::lid; }}},
       [](const Scene& scene) { return scene.column.closed; }, ": column.closed = true", {"column.closed"});
 }
 

@@ -221,7 +221,7 @@ std::vector<Rule> discharge_rules() {
        "column.outlet = \"lid\" needs a [[discharge]] with discharge.pressure, through which leaves what enters",
        [](const Scene& s) {
          const auto open = [](const Discharge& d) { return d.pressure.has_value(); };
-         return broken_if(s.column.outlet == Outlet::lid &&
+         return broken_if(s.column.outlet == Outlet::lid && !s.column.closed &&
                           std::none_of(s.discharges.begin(), s.discharges.end(), open));
        }});
   rules.push_back({{"discharge.from", "discharge.to", "discharge.at", "column.size"},

@@ -124,7 +124,7 @@ KEYS = {
         ("fluid.equation_of_state", "fluid.equation_of_state=tait"), ("species.sphericity", "species.fine.sphericity=0.9"))},
     **{f"{what} cannot act: column.closed = true": ["column.closed=true", setting] for what, setting in (
         ("inlet.superficial_velocity", "inlet.superficial_velocity=0.1"), ("[[jet]]", jets(([0.01], [0.02]))), AT_TOP, ("[[feed]]", feeds("")),
-        ('column.outlet = "open"', "column.outlet=open"))},
+        ('column.outlet = "open"', "column.outlet=open"), ('column.outlet = "lid"', "column.outlet=lid"))},
     **{f"{what} cannot act in a sheared box: its fluid moves with its flow": [SHEARED, setting] for what, setting in (
         ("inlet.superficial_velocity", "inlet.superficial_velocity=0.1"), ("[[jet]]", jets(([0.01], [0.02]))), AT_TOP,
         ("dem.held = true", "dem.held=true"), ("fluid.equation_of_state", "fluid.equation_of_state=tait"))},

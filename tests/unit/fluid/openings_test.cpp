@@ -154,5 +154,15 @@ TEST(Screens, AreAbsent) {
   EXPECT_FALSE(Openings(column(), scene).present());
 }
 
+// Share 0.5, h 0.1 m: outwards at 2 m/s after 0.5 m/s inside -0.5 2 (2 - 0.5)/0.1; inwards from rest 0.5 2 2/0.1.
+TEST(OpenFace, SlowsWhatComesInFromRest) {
+  const OpenFace right{core::ColumnFace::right, 1, 0, 1, 0, 0.5, 1, 0.1, 0};
+  EXPECT_DOUBLE_EQ(right.convection({0, 1}, {0.5, 0}), -15);
+  EXPECT_DOUBLE_EQ(right.convection({0, -1}, {-0.5, 0}), 20);
+  const OpenFace left{core::ColumnFace::left, 0, 0, 0, 1, 0.5, -1, 0.1, 0};
+  EXPECT_DOUBLE_EQ(left.convection({-1, 0}, {0, -0.5}), 15);
+  EXPECT_DOUBLE_EQ(left.convection({1, 0}, {0, 0.5}), -20);
+}
+
 }  // namespace
 }  // namespace polybed::fluid
