@@ -71,7 +71,7 @@ struct Metric {
   Field per_distance;                        ///< of the centres across a face along y, in lowest cells: 2/(a + a)
   bool around_axis = false;                  ///< the low end along x is an axis, without a wall
   std::array<std::vector<Index>, 3> closed;  ///< faces of the padded box without an open part
-  /// Owned closed faces on the steps of walls that do not follow the grid: those of walls inside, and all of them.
+  /// Owned faces closed by walls that cut the grid into steps: by walls inside, and by these or a taper.
   std::array<std::vector<Index>, 3> steps_inside, steps;
 
   [[nodiscard]] bool tapered() const { return layers.size() > 1; }
