@@ -4,9 +4,7 @@ from math import hypot
 
 from polybed.cost.axes import NUMERICS
 from polybed.cost.fit import Priced, pareto_front
-from polybed.cost.quantities import SHARE
-from polybed.cost.sweep import CANDIDATE, REFERENCE, RowQuantity
-from polybed.cost.words import in_words
+from polybed.cost.sweep import CANDIDATE, REFERENCE, SHARE, RowQuantity, in_words
 from polybed.study.measured import means_of
 
 FLOOR_FACTOR = 10  # of the disagreement of two references

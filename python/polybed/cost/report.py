@@ -4,8 +4,7 @@ import os
 from math import isfinite
 
 from polybed.cost.judge import level_of, scale_of
-from polybed.cost.sweep import CANDIDATE
-from polybed.cost.words import CLOCKS, REFERENCE, STATUS, in_words, part, percent
+from polybed.cost.sweep import CANDIDATE, CLOCKS, REFERENCES, STATUS, in_words, part, percent
 from polybed.cost.runner import VERSION, weighed
 from polybed.drawing.units import text
 from polybed.files import put_text
@@ -139,7 +138,7 @@ def shares_of(found):
 def definitions(found):
     """What the numbers are, in sentences."""
     kind, note = found["reference"]["kind"], found["reference"].get("note")
-    return (f"Computing times are {CLOCKS[found['clock']]}. An error is the distance from the reference: {REFERENCE.get(kind, kind)}"
+    return (f"Computing times are {CLOCKS[found['clock']]}. An error is the distance from the reference: {REFERENCES.get(kind, kind)}"
             f"{f' ({note})' if note else ''}.")
 
 

@@ -4,9 +4,8 @@ import numpy as np
 
 from polybed.cost.axes import MODEL, NUMERICS, axes_of, setting
 from polybed.cost.judge import settings_text
-from polybed.cost.quantities import quantities_of, quantities_of_run
 from polybed.cost.runner import RunOrder, RunOutcome
-from polybed.cost.sweep import CANDIDATE, TWIN, Row, Sweep
+from polybed.cost.sweep import CANDIDATE, TWIN, Row, Sweep, quantities_of, quantities_of_run
 from polybed.ending import WRONG_CASE, StudyError
 from polybed.study.measured import ROUNDING, TimeMean, centre_column, species_of
 from polybed.study.output import remark

@@ -17,12 +17,12 @@ PROGRAM, PACKAGE = sys.argv[1:3]
 sys.path.insert(0, PACKAGE)
 os.environ["POLYBED"] = PROGRAM
 
-from polybed.cost import command, quantities  # noqa: E402
+from polybed.cost import command  # noqa: E402
 from polybed.cost.axes import axes_of, grid_level, level_axis, numbers  # noqa: E402
 from polybed.cost.fit import Priced, fit_power_law, pareto_front, refine  # noqa: E402
 from polybed.cost.judge import carries  # noqa: E402
 from polybed.cost.report import advice, shares_json  # noqa: E402
-from polybed.cost.sweep import Share  # noqa: E402
+from polybed.cost.sweep import Share, quantities_of_run  # noqa: E402
 from polybed.cost.sweeper import is_chaotic  # noqa: E402
 from polybed.cost.runner import counters_of, weighed  # noqa: E402
 from polybed.ending import StudyError  # noqa: E402
@@ -218,7 +218,7 @@ class Quantities(unittest.TestCase):
 
     def quantities_of(self, run, slabs):
         with tempfile.TemporaryDirectory() as folder:
-            return quantities.quantities_of_run(run.into(folder), 7.5, slabs)
+            return quantities_of_run(run.into(folder), 7.5, slabs)
 
     def test_lengths_are_those_on_the_slabs_of_the_case(self):
         """The history has what the run's own slabs say; a coarser grid changes it by what its profiles change by."""
