@@ -16,7 +16,7 @@ from polybed.progress import Bar
 with needed(False):
     import matplotlib.pyplot as plt
 
-    from polybed.drawing import animation, fields, history, overview, particles, profiles
+    from polybed.drawing import animation, history, maps, overview, particles, profiles
     from polybed.drawing.style import STYLE
     from polybed.ending import WRONG_CASE, StudyError, made
     from polybed.files import FAULTS, contents_of, in_place, put_text, read_json
@@ -29,8 +29,8 @@ STUDIES = {"comparison.json": ("polybed comparison", (), "polybed.drawing.compar
            "inversion.json": ("polybed inversion", ("png",), "polybed.drawing.inversion_scan"),
            "cost.json": ("polybed cost", ("png", "svg"), "polybed.drawing.cost"),
            "stability.json": ("polybed stability", ("png", "svg"), "polybed.drawing.hard_cases"),
-           "closure_uncertainty.json": ("polybed closure uncertainty", ("png",), "polybed.drawing.closure_uncertainty"),
-           "fit.json": ("polybed drag fit", ("png",), "polybed.drawing.fit")}
+           "closure_uncertainty.json": ("polybed closure uncertainty", ("png",), "polybed.drawing.drag_law"),
+           "fit.json": ("polybed drag fit", ("png",), "polybed.drawing.drag_law")}
 WHAT = ("overview", "fields", "particles", "profiles", "history", "animation")
 
 
@@ -93,7 +93,7 @@ def draw_one(run, what, time, folder, ending, rate=None, progress=None):
         raise StudyError(WRONG_CASE, f"--what {what}: {run.directory} holds no {what}; there are {', '.join(kinds_of(run))}")
     if what == "animation":
         return animation.film(run, folder / ("animation.mp4" if animation.has_ffmpeg() else "animation.gif"), rate, progress)
-    draw = {"overview": lambda: overview.draw(run, step), "fields": lambda: fields.draw(run, run.step_at(shown)),
+    draw = {"overview": lambda: overview.draw(run, step), "fields": lambda: maps.draw(run, run.step_at(shown)),
             "particles": lambda: particles.draw(run, step), "profiles": lambda: profiles.draw(run, shown),
             "history": lambda: history.draw(run, None if time is None else shown)}
     return save(draw[what](), folder / f"{what}.{ending}")

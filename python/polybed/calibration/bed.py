@@ -2,10 +2,11 @@
 
 import math
 
-from polybed.calibration.fit import Table, grouped, mean_of_seeds
+from polybed.calibration.fit import grouped, mean_of_seeds
 from polybed.calibration.text import measured
 from polybed.ending import NUMBERS, StudyError
-from polybed.tables import right_table
+from polybed.solids_table import SolidsTable
+from polybed.texts import right_table
 
 AGREEMENT = 0.05  # what both measures of the pressure may differ by
 UNITS = "p_bed over |rho_p - rho_f| g D; theta_bed over that and rho_p; velocity m/s"
@@ -15,7 +16,7 @@ def bed_table(seeds, boxes, weight):
     """Means over the seeds of each point, in rising phi. weight: |rho_p - rho_f| g D/rho_p, m2/s2"""
     points = grouped(boxes, seeds)
     slabs, balance = ([mean_of_seeds([tuple(box[name]) for box in point]) for point in points] for name in ("p_bed", "p_bed_by_balance"))
-    return Table({
+    return SolidsTable({
         "phi": [sum(box["bed_phi"] / len(point) for box in point) for point in points],
         "p_bed": [mean for mean, _ in slabs], "p_bed_se": [error for _, error in slabs],
         "p_bed_n": [float(len(point)) for point in points],

@@ -7,7 +7,7 @@ from concurrent.futures import as_completed
 from dataclasses import dataclass
 from typing import NamedTuple
 
-from polybed.drawing.units import duration
+from polybed.texts import duration
 from polybed.ending import FILE, NUMBERS, StudyError
 from polybed.files import FAULTS, contents_of, finite, read_text
 from polybed.runner import Door, ranks, side_by_side

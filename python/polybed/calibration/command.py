@@ -5,12 +5,11 @@ import signal
 import time
 from pathlib import Path
 
-from polybed.arguments import parser_of, whole
+from polybed.ending import DONE, WRONG_CASE, StudyError, answer, guarded, parser_of, whole
 from polybed.calibration import bed, fit
 from polybed.calibration.boxes import Boxes, Plan, asked_of
 from polybed.calibration.text import box_lines, deviation, deviation_lines, points_between, table_toml
-from polybed.drawing.units import duration
-from polybed.ending import DONE, WRONG_CASE, StudyError, answer, guarded
+from polybed.texts import duration
 from polybed.files import in_place, put_text
 from polybed.program import name_of
 from polybed.runner import Door, ranks

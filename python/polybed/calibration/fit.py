@@ -2,50 +2,18 @@
 
 import itertools
 import math
-from dataclasses import dataclass, field
 
-import h5py
 import numpy as np
 from scipy.interpolate import CubicHermiteSpline, PchipInterpolator
 from scipy.special import ndtr, stdtrit
 
 from polybed.ending import NUMBERS, StudyError
-from polybed.solids_table import AXES, checksum
+from polybed.solids_table import AXES, SolidsTable
 
 SCATTER_SEEDS = 3  # from so many seeds on their scatter alone is the error of their mean; points that scatter get more seeds
 MOST_SEEDS = 10  # of a point
 GREATEST_RESIDUAL = 0.05  # of a fit that may be used, and the greatest standard error of its points
 LEAST_TO_LEAVE_OUT = 4  # solids fractions from which on one can be left out and read from the others
-
-
-@dataclass
-class Table:
-    """A table of the solids stress, named as in its file."""
-    arrays: dict = field(default_factory=dict)  # axes, and quantities [phi][stokes][e][mu_p][x2]
-    attributes: dict = field(default_factory=dict)
-
-    def __getitem__(self, name):
-        return self.arrays[name]
-
-    def put(self, name, values):
-        """Adds a quantity, one value for each point."""
-        self.arrays[name] = np.reshape(values, [len(self.arrays[axis]) for axis in AXES])
-
-    def points(self, name):
-        """A quantity, or the solids fraction, of each point."""
-        values = self.arrays[name]
-        return np.repeat(values, self.arrays["S"].size // len(values)) if name == "phi" else values.ravel()
-
-    def lines(self, name):
-        """A quantity along phi, one row for each place in the other axes."""
-        return self.arrays[name].reshape(len(self.arrays["phi"]), -1).T
-
-    def write(self, path):
-        with h5py.File(path, "w") as file:
-            for name, values in self.arrays.items():
-                file[name] = np.asarray(values, float)
-            file.attrs.update(self.attributes)
-            file.attrs["crc32"] = checksum(self.arrays)
 
 
 def student_one_sigma(degrees):
@@ -95,7 +63,7 @@ def fitted(plan, boxes):
     inertia = 0.0
     if plan.regime == "wet" and len(axes["stokes"]) > 1:  # of the first restitution, friction and share
         inertia = fitted_inertia(axes["stokes"], np.reshape(plain, (len(axes["phi"]), len(axes["stokes"]), -1))[:, :, 0].tolist())
-    table = Table(axes, {"regime": plan.regime, "reference": plan.case["reference"], "lambda": inertia})
+    table = SolidsTable(axes, {"regime": plan.regime, "reference": plan.case["reference"], "lambda": inertia})
     for name in ("p_ratio", "mu_ratio", "gamma_ratio"):
         add_means(table, name, name, points, np.array([1 / (1 + inertia * point.stokes) for point in plan.points()]))
     add_means(table, "T_ratio_12", "temperature_ratio", points)

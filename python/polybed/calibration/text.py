@@ -9,7 +9,7 @@ import numpy as np
 from polybed.calibration.boxes import Point
 from polybed.calibration.fit import relative_errors, shear_number
 from polybed.solids_table import AXES
-from polybed.tables import right_table
+from polybed.texts import right_table
 
 # Column of a box: (heading, its number or text)
 PLACE = (("phi", lambda box: f"{box['solids_fraction']:g}"), ("St", lambda box: f"{box['stokes']:g}"),

@@ -6,13 +6,13 @@ import tempfile
 import tomllib
 from pathlib import Path
 
-from polybed.arguments import parser_of
+from polybed.ending import DONE, FILE, NUMBERS, WRONG_CASE, StudyError, answer, guarded, parser_of
 from polybed.cost import front
 from polybed.cost.axes import MAKERS, MODEL, NUMERICS, Scene
 from polybed.cost.judge import measure_distances, measure_errors, rank, settings_text
 from polybed.cost.reference import find_reference
 from polybed.cost.report import sweep_json, sweep_markdown, write_sweep
-from polybed.cost.runner import Runner, RunOrder
+from polybed.cost.runner import RunOrder, Runner
 from polybed.cost.sweep import CANDIDATE, quantities_of_run
 from polybed.cost.sweeper import Sweeper, common_overrides
 from polybed.files import contents_of, put_text, read_json, read_text
@@ -20,7 +20,6 @@ from polybed.program import name_of
 from polybed.runner import call, words_of
 from polybed.study.cases import Case
 from polybed.study.output import draw, subfolder, taken
-from polybed.ending import DONE, FILE, NUMBERS, WRONG_CASE, StudyError, answer, guarded
 
 TIME_ALLOWED, ROUNDING = 0.25, 1e-9  # of the time and the error of a recommendation that is run again
 NUMBER = r" *\+?(\d+\.?\d*(?:[eE][-+]?\d+)?|\.\d+(?:[eE][-+]?\d+)?) *"

@@ -6,12 +6,11 @@ from math import isfinite
 from polybed.cost.judge import level_of, scale_of
 from polybed.cost.sweep import CANDIDATE, CLOCKS, REFERENCES, STATUS, in_words, part, percent
 from polybed.cost.runner import VERSION, weighed
-from polybed.drawing.units import text
+from polybed.texts import markdown_table, text
 from polybed.files import put_text
 from polybed.program import name_of
 from polybed.runner import commit_and_build
 from polybed.study.output import json_text
-from polybed.tables import markdown_table
 
 ALWAYS = ("rtol", "grid", "scheme", "steps", "coupling")  # axes whose level each row tells, the others where it is not that of the first row
 OUTCOMES = {"refused": "No recommendation", "failed": "The sweep failed"}

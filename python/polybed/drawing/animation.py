@@ -4,8 +4,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib import animation
 
-from polybed.drawing.fields import voidages
-from polybed.drawing.maps import Group, draw_maps
+from polybed.drawing.maps import Group, draw_maps, voidages
 from polybed.drawing.particles import views_of
 from polybed.drawing.style import as_shown, fitted, greatest_fraction, in_plane, shown_height, title_of
 from polybed.files import in_place

@@ -12,12 +12,11 @@ import numpy as np
 
 from polybed.drawing import particles
 from polybed.drawing.curves import heights
-from polybed.drawing.fields import fractions
+from polybed.drawing.maps import axes_at, draw_bar, draw_map, fractions, frame, map_size
 from polybed.drawing.history import key
 from polybed.drawing.inversion_scan import commands as scan_command
 from polybed.drawing.inversion_scan import on_ranks
 from polybed.drawing.inversion_scan import tables as scan_tables
-from polybed.drawing.maps import axes_at, draw_bar, draw_map, frame, map_size
 from polybed.drawing.profiles import shown_top
 from polybed.drawing.style import COLOURS, NAMES, PALE, drop_over_weight, length_unit
 from polybed.files import read_json
@@ -25,7 +24,7 @@ from polybed.page import Html, file_name, listing, markup, page, picture, sectio
 from polybed.read import nearest, read, stored_times
 from polybed.folder import title_of_case
 from polybed.runner import words_of
-from polybed.study.compare_report import measure_cells, with_error
+from polybed.study.scores import measure_cells, with_error
 
 LINES = {"tfm": "-", "dem": "--"}
 DOTS = {"tfm": (0, (1, 2)), "dem": (0, (1, 5))}  # of the interface, which no species has a colour for

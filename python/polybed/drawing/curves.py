@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 
 from polybed.drawing.style import FEW_SOLIDS, GREY, drop_over_weight, length_unit, levels, species_line
-from polybed.drawing.units import fitting
+from polybed.texts import fitting
 
 PARTS = 40  # of the time, over each of which a rate is a mean
 STORED = ("kinetic_J", "rotational_J", "elastic_J", "potential_J")

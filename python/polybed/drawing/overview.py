@@ -5,9 +5,8 @@ import numpy as np
 
 from polybed.drawing import particles
 from polybed.drawing.curves import heights, profile_panel
-from polybed.drawing.fields import fractions, thin_apart, voidages
+from polybed.drawing.maps import axes_at, draw_map, draw_scale, fractions, map_size, thin_apart, voidages
 from polybed.drawing.history import draw_panel, key, time_axis
-from polybed.drawing.maps import axes_at, draw_map, draw_scale, map_size
 from polybed.drawing.style import PALE, fitted, length_unit, shown_height, title_of
 from polybed.read import nearest
 

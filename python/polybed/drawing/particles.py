@@ -8,7 +8,7 @@ from matplotlib.lines import Line2D
 
 from polybed.drawing.maps import BARS, GAP, HEAD, HEIGHT, LEFT, RIGHT, axes_at, draw_scale, frame, map_size
 from polybed.drawing.style import COLOURS, fitted, length_unit, title_of
-from polybed.drawing.units import fitting
+from polybed.texts import fitting
 
 MOST = 50_000  # circles in a picture; more take long and hide each other
 EDGE = 1.5  # points, the radius from which a circle has an outline

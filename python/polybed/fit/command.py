@@ -6,16 +6,15 @@ from pathlib import Path
 
 import numpy as np
 
-from polybed.arguments import parser_of, whole
+from polybed.ending import DONE, NUMBERS, WRONG_CASE, StudyError, answer, guarded, parser_of, whole
 from polybed.fit import errors
 from polybed.fit.fitting import Problem
-from polybed.fit.page import COLUMNS, page, write_errors
+from polybed.fit.errors import COLUMNS, page, write_errors
 from polybed.fit.rows import read_points
 from polybed.runner import answer_of
 from polybed.study.output import draw, remark, taken, write_record
 from polybed.study.cases import laws_of
-from polybed.ending import DONE, NUMBERS, WRONG_CASE, StudyError, answer, guarded
-from polybed.tables import text_table
+from polybed.texts import text_table
 
 INTERVAL = (2.5, 97.5)  # per cent of the draws
 FORM_OFF = 1e-9  # of the force, between this package and the program: rounding

@@ -6,7 +6,7 @@ import re
 import shlex
 from collections import Counter
 
-from polybed.drawing.units import text
+from polybed.texts import text
 from polybed.files import finite, whole_lines
 from polybed.page import Html, listing, markup, source, table
 from polybed.folder import case_of, velocity_of

@@ -14,7 +14,7 @@ from collections import Counter
 from http import HTTPStatus
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 
-from polybed.drawing.units import text
+from polybed.texts import text
 from polybed.ending import DONE, guarded
 from polybed.files import FAULTS, contents_of, opened
 from polybed.page import markup, section

@@ -4,18 +4,16 @@ import os
 import shlex
 from pathlib import Path
 
-from polybed.arguments import parser_of
-from polybed.drawing.units import duration
+from polybed.ending import DONE, FILE, WRONG_CASE, StudyError, answer, guarded, parser_of
+from polybed.texts import duration
 from polybed.files import contents_of, read_json
 from polybed.folder import drift_lines, read_record
 from polybed.program import name_of
-from polybed.study import compare_report as report
 from polybed.study.cases import Case, differences, roles_in_both_models
-from polybed.ending import DONE, FILE, WRONG_CASE, StudyError, answer, guarded
 from polybed.study.measured import measured
 from polybed.study.output import draw, remark, taken, write_record
 from polybed.runner import answer_of, flags, has_checkpoint, ranks, run, words_of
-from polybed.study.scores import MODELS, add_inversion, compare
+from polybed.study.scores import MODELS, add_inversion, compare, plain, table
 
 
 def record_of(directory, model):
@@ -100,13 +98,13 @@ def compare_runs(options, case, directories):
             add_inversion(found, *scan, case.velocity)
     states = {model: record["state"] for model, record in records.items()}
     found["warnings"] += [f"{model}: the run is not done ({state})" for model, state in states.items() if state != "done"]
-    plain = report.plain(found, case, options.output, {model: (directories[model], records[model]) for model in MODELS})
+    record = plain(found, case, options.output, {model: (directories[model], records[model]) for model in MODELS})
     path = Path(options.output) / "comparison.json"
-    text = write_record(path, plain)
+    text = write_record(path, record)
     made_here = not (options.tfm or options.dem)
     drifts = made_here and any(drift_lines(run.record) for run in runs)
     more = f"\nto go on: {command_to_go_on(options, records['tfm']['time_s'])}" if drifts else ""
-    answer(text if options.json else f"{report.table(plain)}\n{path}{more}")
+    answer(text if options.json else f"{table(record)}\n{path}{more}")
     if options.picture:
         draw(path, "page", options.json or options.quiet)
 

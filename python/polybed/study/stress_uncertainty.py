@@ -9,7 +9,6 @@ import os
 import sys
 from pathlib import Path
 
-from polybed.calibration.fit import Table
 from polybed.files import in_place
 from polybed.solids_table import read_table
 from polybed.study.cases import Case
@@ -25,8 +24,7 @@ MOVED = ("p_ratio", "mu_ratio", "p_bed")  # pressures and viscosities of a table
 def moved_table(table, sigma, path):
     """Writes a table whose pressures and viscosities are off by a number of their standard errors, and returns what to set in a case so that
     it is read. Raises StudyError if the table has no errors, or if its pressure would fall with the solids fraction."""
-    given = read_table(table)
-    moved = Table({name: given[name] for name in given.names()}, dict(given.attributes))
+    moved = read_table(table)
     errors = [name for name in MOVED if f"{name}_se" in moved.arrays]
     if not errors:
         raise StudyError(WRONG_CASE, f"{table}: no p_bed_se: nothing tells how uncertain p_bed is")

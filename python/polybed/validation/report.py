@@ -5,7 +5,7 @@ import json
 from polybed.files import FormatError, put_text, read_json, read_text
 from polybed.page import Html, markup, page, section, source
 from polybed.page import table as html_table
-from polybed.tables import markdown_table
+from polybed.texts import markdown_table
 from polybed.validation.numbers import INSIDE, OUTSIDE, UNDECIDED
 
 HEAD = ("bed", "run", "model", "quantity", "measured", "of the model", "joint", "verdict", "CPU s")

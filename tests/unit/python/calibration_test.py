@@ -25,7 +25,7 @@ from polybed.calibration.text import box_lines, deviation, deviation_lines, poin
 from polybed.ending import NUMBERS, StudyError
 from polybed.errors import ProgramError
 from polybed.runner import asked, running
-from polybed.solids_table import checksum, read_table
+from polybed.solids_table import SolidsTable, checksum, read_table
 from polybed.study.stress_uncertainty import moved_table
 
 DRY = {"regime": "dry", "reference": "GD-CS e_eff", "binary": False, "seeds": 2,
@@ -298,8 +298,8 @@ class Checks(Scratch):
 
     def table(self, regime="wet", stokes=(1, 100), p=((0.8, 0.8), (1.0, 1.0)), p_error=0.09, mu=((0.6, 0.6), (0.4, 0.4)), mu_error=0.02,
               inertia=0.05):
-        table = fit.Table({"phi": [0.3, 0.5], "stokes": list(stokes), "e": [0.9], "mu_p": [0.3], "x2": [0]},
-                          {"regime": regime, "reference": "viscous", "lambda": inertia, "fit_residual": 0.0, "left_out_residual": 0.0})
+        table = SolidsTable({"phi": [0.3, 0.5], "stokes": list(stokes), "e": [0.9], "mu_p": [0.3], "x2": [0]},
+                            {"regime": regime, "reference": "viscous", "lambda": inertia, "fit_residual": 0.0, "left_out_residual": 0.0})
         ones = np.ones((2, len(stokes)))
         for name, values, error in (("p_ratio", p, p_error), ("mu_ratio", mu, mu_error), ("gamma_ratio", ones, 0), ("T_ratio_12", ones, 0)):
             values = np.array(values, float)[:, :len(stokes)]
@@ -386,7 +386,7 @@ class Checks(Scratch):
         self.assertFalse(list(self.folder.glob("fallen*")))
 
     def test_a_table_of_a_bed_without_errors_is_not_moved(self):
-        fit.Table({"phi": [0.3, 0.5], "p_bed": [1.0, 2.0]}, {"filetype": "polybed solids table", "version": 1, "regime": "bed"}).write(
+        SolidsTable({"phi": [0.3, 0.5], "p_bed": [1.0, 2.0]}, {"filetype": "polybed solids table", "version": 1, "regime": "bed"}).write(
             self.folder / "bed.h5")
         with self.assertRaises(StudyError) as refused:
             moved_table(self.folder / "bed.h5", 1, self.folder / "moved.h5")
