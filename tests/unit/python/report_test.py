@@ -23,7 +23,6 @@ sys.path.insert(0, PACKAGE)
 from report_pages import EVIL, Page, add_case, data_of
 
 import polybed
-from polybed import texts
 from polybed.drawing import curves
 from polybed.report import beds, build, sections, series
 
@@ -287,7 +286,7 @@ class Numbers(unittest.TestCase):
         for value, unit, told in ((2.3, "m/s", "2.3 m/s"), (0.0023, "m/s", "2.3 mm/s"), (1.0, "m", "1 m"), (0.9999, "m", "1e+03 mm"),
                                   (4.5e-7, "s", "450 ns"), (101325, "Pa", "101 kPa"), (2.5e-6, "kg", "2.5 mg"), (3.2, "kg", "3.2 kg"),
                                   (2e-6, "m2/s2", "2 mm\u00b2/s\u00b2"), (0, "m", "0 m"), (0.25, "1", "0.25")):
-            self.assertEqual(texts.text(value, unit), told)
+            self.assertEqual(polybed.texts.text(value, unit), told)
 
     def test_every_nth_entry_keeps_the_last(self):
         self.assertEqual(list(series.thinned(10, 4)), [0, 3, 6, 9])
