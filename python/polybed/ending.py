@@ -1,5 +1,4 @@
-"""Command lines: options that several commands take, and how every command ends: the exit codes of polybed, and what is wrong in a
-message on standard error."""
+"""Command lines: options that several commands take, exit codes, and messages on standard error."""
 
 import argparse
 import os

@@ -1,5 +1,4 @@
-"""Files as they are opened: only regular ones, and of those of polybed kind and version are checked; a damaged one is named in one line.
-Nothing else in this package opens a file to read."""
+"""Opens files to read, here alone: regular ones, of polybed's of the right kind and version; a damaged one is named in one line."""
 
 import contextlib
 import csv
@@ -119,8 +118,7 @@ def read_json(path: str | os.PathLike[str], filetype: str) -> dict[str, Any]:
 
 
 class Group(Mapping):
-    """A group of an HDF5 file by the names of what it contains. Links to other places and numbers in other files raise ValueError: HDF5
-    follows them to any file that the user may read."""
+    """A group of an HDF5 file. Links and external numbers raise ValueError: HDF5 follows them to any file that the user can read."""
 
     def __init__(self, group):
         self._group, self.attrs = group, group.attrs

@@ -15,8 +15,7 @@ PACKAGE = Path(__file__).resolve().parent
 
 
 class MatplotlibFromPackage:
-    """Finds matplotlib, when it is first imported, so that it is run in this folder: it reads a matplotlibrc of the working directory, and
-    that may name programs to run."""
+    """Imports matplotlib in this folder: it reads a matplotlibrc of the working directory, which can name programs to run."""
 
     @classmethod
     def find_spec(cls, name, path=None, target=None):

@@ -1,5 +1,4 @@
-"""What every program of this package begins with: it says which packages of the system are missing, and prints nothing that acts on a
-terminal. Needs none itself."""
+"""What each program of this package begins with: names missing packages and prints nothing that acts on a terminal. Needs none."""
 
 import contextlib
 import re

@@ -92,8 +92,7 @@ def allowed(texts):
 
 
 def page(title, under, body, scripts=(), follows=False):
-    """The whole file. under: the line below the title; scripts: texts, which run in their order at the end; follows: the page asks the
-    server that it comes from for more."""
+    """The whole file. under: the line below the title; scripts: texts, run in order at the end; follows: the page asks its server for more."""
     asked = "'self'" if follows else "'none'"
     policy = (f"default-src 'none'; base-uri 'none'; form-action 'none'; img-src data:; style-src {allowed([LOOKS])}; "
               f"script-src {allowed(scripts)}; connect-src {asked}")

@@ -45,8 +45,7 @@ def save(figure, path):
 
 
 def study_drawn(path, out=None):
-    """Draws the record of a study, in its folder or another one, and puts its page beside the record unless the pictures are to lie
-    elsewhere. Returns the paths."""
+    """Draws the record of a study in its folder or another; its page goes beside the record, if pictures do. Returns the paths."""
     filetype, endings, module = STUDIES[path.name]
     study, found, folder = importlib.import_module(module), read_json(path, filetype), Path(out or path.parent)
     if endings:

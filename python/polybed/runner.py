@@ -213,8 +213,7 @@ class Exit(NamedTuple):
 
 
 def run_within(seconds: float, words: Iterable[object], output: Path) -> Exit:
-    """Runs the program, and ends it when its time is over. output: a new file of what it prints; a link that has its name is removed and
-    not followed"""
+    """Runs the program, and ends it when its time is over. output: a new file of what it prints; a link of its name is not followed."""
     late, begin = threading.Event(), time.monotonic()
     output.unlink(missing_ok=True)
     with open(output, "xb") as file:

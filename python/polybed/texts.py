@@ -25,8 +25,7 @@ GRAMS = {"kg": "g", "kg/s": "g/s"}
 
 
 def fitting(unit, greatest):
-    """(factor, name): what numbers in an SI unit are multiplied with, so that the greatest of them reads as 1 to 1000, and the unit
-    then. Numbers all 0, or without a unit, keep it."""
+    """(factor, unit) in which the greatest of numbers reads as 1 to 1000. All 0, or without a unit, they keep it."""
     if unit in WHOLE or not 0 < greatest < float("inf"):
         return 1.0, {"1": "", "m2/s2": "m\u00b2/s\u00b2"}.get(unit, unit)
     power, name = SQUARED.get(unit, (1, "{0}" + unit))

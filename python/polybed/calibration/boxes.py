@@ -123,8 +123,7 @@ class Boxes:
         return results
 
     def run_by(self, door, places, finished):
-        """Has a program run boxes, in this order; `finished` is called each time its first rank has finished one. Returns the places of
-        those that failed."""
+        """Has a program run boxes in this order, calling `finished` as its first rank finishes one; returns the places that failed."""
         answer = door.ask("run", points=asked_of(self.points[n] for n in places), files=[str(self.path(n)) for n in places])
         while answer is None:
             finished()

@@ -102,8 +102,7 @@ def missed_at(phi, value, error, p):
 
 
 def left_out(table):
-    """Greatest |curve/point - 1| of p and mu where a solids fraction is left out of the curve, and the same beyond two standard errors of
-    both together; 0 where there are too few."""
+    """Greatest |curve/point - 1| of p and mu at fractions left out, and beyond two standard errors of both; 0 for too few."""
     phi = np.array(table["phi"])
     if len(phi) < LEAST_TO_LEAVE_OUT:
         return 0.0, 0.0
@@ -119,8 +118,7 @@ def relative_errors(table):
 
 
 def add_seeds(plan, table):
-    """A seed more at every point whose standard error is too great and that has fewer than MOST_SEEDS, of a plan that wants its points
-    known. Returns whether there is such a point."""
+    """Adds a seed at each point that scatters too much and has fewer than MOST_SEEDS, if seeds are to be added; whether there is one."""
     if min(plan.seeds) < SCATTER_SEEDS:
         return False
     more = [error > GREATEST_RESIDUAL and seeds < MOST_SEEDS for error, seeds in zip(relative_errors(table), plan.seeds)]
@@ -139,8 +137,7 @@ def require_exchange(table):
 
 
 def require_usable(table, falls):
-    """Raises StudyError with what is wrong with a table: where its pressure falls, its residual, or, with several seeds, a point whose
-    standard error is too great. falls: places, as the program answers"""
+    """Raises StudyError if the pressure falls, the residual or, of several seeds, a standard error is too great. falls: places"""
     if falls:
         raise StudyError(NUMBERS, "the pressure of the table falls with the solids fraction, which no bed can follow: " + "; ".join(falls))
     residual, allowed = table.attributes["fit_residual"], f"{100 * GREATEST_RESIDUAL:.0f} % are allowed"

@@ -1,5 +1,4 @@
-"""A table beside its file: the same as TOML, what the boxes have measured, for people; and points that a table was not fitted to, compared
-with it."""
+"""A table as TOML, and what the boxes have measured, for people; and points that a table was not fitted to, compared with it."""
 
 import json
 import math
@@ -89,8 +88,7 @@ def box_lines(boxes):
 
 
 def points_between(table, binary):
-    """Three points between the knots of a table: the middle of its first, middle and last distance in phi; of a wet table between two
-    Stokes numbers, in the logarithm; of the other axes the first knot."""
+    """Three points between knots: middles of the first, middle and last gap in phi, of two Stokes numbers (ln), first knots else."""
     phi, stokes = list(map(float, table["phi"])), list(map(float, table["stokes"]))
     half = (len(stokes) - 1) // 2
     middle = math.sqrt(stokes[half] * stokes[half + 1]) if len(stokes) > 1 else stokes[0]

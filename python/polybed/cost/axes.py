@@ -1,5 +1,4 @@
-"""The case of a sweep as the program resolves it, and what a sweep varies: axes, their levels, and the settings of the command line that a
-level stands for."""
+"""The case of a sweep, and what a sweep varies: axes, their levels, and the settings that a level stands for."""
 
 import resource
 from dataclasses import dataclass, field, replace
@@ -188,8 +187,7 @@ def acting_axes(scene, model):
 
 
 def axes_of(scene, model, names):
-    """The axes of these names in the order of a sweep, without names all. Raises StudyError for a name that is unknown, or that does not act
-    in this case."""
+    """The axes of these names, or all, in the order of a sweep. Raises StudyError for one that is unknown or does not act in the case."""
     acting = acting_axes(scene, model)
     for name in names:
         if name not in acting:

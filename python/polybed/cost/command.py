@@ -160,8 +160,7 @@ def run_again(sweep, advised, folder):
 
 
 def check_recommendation(folder):
-    """Runs the recommendation of DIR/cost.json again: its error has to lie within its interval, its time within 25 %. Says so, and in the
-    file; returns whether both hold."""
+    """Runs the recommendation of DIR/cost.json again, says whether error and time (25 %) agree, also in the file, and returns it."""
     path = folder / "cost.json"
     sweep = read_json(path, "polybed cost")
     with contents_of(path):

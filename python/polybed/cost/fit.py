@@ -24,8 +24,7 @@ class PowerLaw(NamedTuple):
 
 
 def fit_power_law(x, y):
-    """Least squares of ln y over ln x; None for fewer than two different x, or if a number is infinite. Pairs that are not above 0 are left
-    out."""
+    """Least squares of ln y over ln x of the pairs above 0; None for fewer than two different x, or if a number is infinite."""
     points = np.log([pair for pair in zip(x, y) if pair[0] > 0 and pair[1] > 0]).reshape(-1, 2)
     if len(points) < 2 or np.ptp(points[:, 0]) == 0 or not np.isfinite(points).all():
         return None

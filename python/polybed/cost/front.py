@@ -39,8 +39,7 @@ def fit_laws(sweeper):
 
 
 def predicted(sweeper):
-    """All settings of the numerical axes, the others as in the centre, with their errors, which add by their squares, and their costs,
-    which multiply by their ratios."""
+    """All settings of the numerical axes, the others as in the centre, with errors added by squares and costs multiplied by ratios."""
     axes = [axis for axis in sweeper.sweep.axes if axis.kind == NUMERICS]
     centre = sweeper.centre_row.rate
 

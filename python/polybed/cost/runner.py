@@ -1,5 +1,4 @@
-"""Runs a case by the program itself, one child process a run, and keeps what came of it: a sweep that is killed goes on with the runs
-that were done."""
+"""Runs a case by the program, one child process a run, and keeps what came of it for a sweep that continues."""
 
 import json
 import math

@@ -48,8 +48,7 @@ def is_chaotic(signal, twin):
 
 
 class Sweeper:
-    """Runs the rows of a sweep, each once, within its budget. centre: the settings from which each axis is varied alone, on the coarsest
-    grid."""
+    """Runs the rows of a sweep, each once, within its budget. centre: settings from which each axis is varied, on the coarsest grid."""
 
     def __init__(self, scene, options, runner):
         self.scene, self.runner, self.sweep = scene, runner, Sweep(options)
@@ -91,8 +90,7 @@ class Sweeper:
         return (values[self.centre["grid"]] / values[level]) ** (powers + 0.5)
 
     def axis_ratio(self, axis, level):
-        """By what a level of an axis is expected to change the time of the centre: from its line as far as it was run; else by powers that
-        no axis is likely to exceed."""
+        """Expected time of a level of an axis over that of the centre: from its line if it was run, else by powers that are not exceeded."""
         row = self.row_on_line(axis.name, level)
         if row:
             return row.outcome.wall / self.centre_row.outcome.wall

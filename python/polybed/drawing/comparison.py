@@ -37,8 +37,7 @@ def colour(n):
 
 
 def panels_at(runs, time):
-    """What there is to draw at a time: ("map", run, title, values, group) and ("particles", run, title, step, None); the
-    volume fractions of both models on one scale."""
+    """("map", run, title, values, group) and ("particles", run, title, step, None) at a time; fractions of both models on one scale."""
     found, groups = [], []
     for model, run in runs.items():
         step = nearest(run.time, time)

@@ -167,8 +167,7 @@ def profile_kinds(run):
 
 
 def profile_panel(run, kind, rows):
-    """A kind of profile of every species and of the fluid at stored times, [time][y] over height; size classes as one, neither velocity nor
-    temperature where a species is absent."""
+    """A kind of profile at stored times, [time][y], of the fluid and each species; no velocity or temperature where it is absent."""
     profiles, (title, unit, fluid, label) = run.profiles, KINDS[kind]
     height, lines = profiles["y_m"], []
     for n, (species, classes) in enumerate(run.kinds.items()):

@@ -165,8 +165,7 @@ THIN = 0.05  # of the scale of all species, on which less looks like nothing
 
 
 def stored_maps(run, step, classes=False):
-    """Volume fractions of the species, voidage and upward velocities at a stored step, {(kind, label): values [y][x]}; no velocity where a
-    species is absent. classes: of sizes one by one, or as one"""
+    """Fractions, voidage and upward velocities at a step, {(kind, label): [y][x]}; NaN without a species. classes: one by one"""
     names = [name for name in run.fields if name.startswith(("phi_", "u_")) or name == "voidage"]
     stored = {name: in_plane(values[..., 1] if name.startswith("u_") else values) for name, values in run.fields_at(step, names).items()}
     species = {name: [name] for name in run.species} if classes else run.kinds

@@ -122,8 +122,7 @@ def shortened(text):
 
 
 def fitted(title, figure, size):
-    """A title that fits above a figure, in letters of a size in points. The text after the name of the case goes to a second line if one
-    line is too long; a name that is too long is cut."""
+    """A title that fits above a figure, in letters of a size in points: in two lines if need be, a name that is too long cut."""
     letters = int(figure.get_figwidth() * 72 / (0.56 * size))  # of the mean width of DejaVu Sans
     name, gap, rest = title.partition("   ")
     if len(title) <= letters or not gap:

@@ -112,8 +112,7 @@ def fit(given, folder):
 
 
 def sum_rule(points, nets, form):
-    """Greatest relative departure of sum x_j n_j/y_j^2 from the mean that the law has, n_mean = f_mean/eps; an identity of both forms, so
-    rounding. None without mixtures."""
+    """Greatest departure of sum x_j n_j/y_j^2 from the law's mean, f_mean/eps: rounding, as both forms keep it. None without mixtures."""
     worst = None
     for p, net in zip(points, nets):
         if len(net) < 2:

@@ -147,8 +147,7 @@ def circle_in(size, diameter, height):
 
 
 def opening_of(run):
-    """The rim of the opening in the middle of the bottom, as a closed line: of a slot as deep as the column or, in a column of three
-    dimensions, of a round hole; nothing without one."""
+    """The rim of the opening in the bottom as a closed line: of a slot as deep as the column, in 3-D of a round hole; [] without one."""
     case, size = case_of(run.record), run.particles.size
     width = case.get("dem", {}).get("opening")
     if not width:

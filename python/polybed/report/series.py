@@ -72,8 +72,7 @@ def levels(values, low, high, kind=np.uint8):
 
 
 def changes(values):
-    """Two-byte numbers [step][...] as the change from step to step, low bytes and high bytes apart: what moves little is short when
-    compressed."""
+    """Two-byte numbers [step][...] as changes from step to step, low and high bytes apart: what moves little compresses well."""
     change = np.diff(values, axis=0, prepend=np.zeros_like(values[:1])).astype(np.uint16)
     return np.concatenate([(change & 255).astype(np.uint8).ravel(), (change >> 8).astype(np.uint8).ravel()])
 

@@ -63,8 +63,7 @@ class Bed:
         return found
 
     def moved(self, directions, signs, path):
-        """Override by which a case takes the law moved by so many bands in each direction, written to a file. A factor is moved by its
-        logarithm, so that plus and minus undo each other."""
+        """Override for the law moved by so many bands in each direction, a factor by its logarithm: plus and minus undo each other."""
         common = sum(math.log1p(directions[name][0]) * sign for name, sign in signs.items())
         tilt = sum(directions[name][1] * sign for name, sign in signs.items())
         return f'effects.drag="{write_moved(self.law, math.exp(common), tilt, path)}"'

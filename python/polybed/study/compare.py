@@ -63,8 +63,7 @@ def forecast(options, case):
 
 
 def read_scan(options, case):
-    """(inversion.json of a scan of the case by both models, its path); None without one. The scan by default may be of the case as it was
-    before."""
+    """(inversion.json of a scan of the case by both models, its path), or None. The default scan can be of an earlier case."""
     path = Path(options.inversion or Path("runs") / f"{name_of(case.path)}-inversion") / "inversion.json"
     if not path.exists():
         if options.inversion:

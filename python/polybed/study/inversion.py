@@ -56,8 +56,7 @@ class RunsOfModel:
         return Mean(made["centre_difference"], made["error"])
 
     def start_of(self, velocity, source):
-        """What a run begins with. One that goes on from another has its velocity at first, which its fields are of, and its integrator,
-        which would else be chosen by the velocity."""
+        """Overrides for the start. A run that continues another begins with its velocity, and keeps its integrator."""
         if source is None:
             return [f"inlet.superficial_velocity={velocity!r}"]
         checkpoint = os.path.join(self.runs[source]["directory"], "checkpoint.h5")
@@ -84,8 +83,7 @@ def finished(directory):
 
 
 def measure(directory):
-    """What a finished run has measured, as inversion.json has it, and its integrator. Warnings say what is not steady; the interface is that
-    of the mean profile of the window."""
+    """What a finished run has measured, as in inversion.json, and its integrator. The interface is that of the mean profile."""
     (begin, end, _), [run], _ = means_of(directory)
     b, height = (run.means.get(name) for name in ("centre_difference", "bed_height_m"))
     if b is None or height is None or b.error is None:
@@ -103,8 +101,7 @@ def measure(directory):
 
 
 def choice_of(keys):
-    """What was chosen for a case that leaves effects to the program, as overrides: every run of a scan has the same, though the choice
-    follows from the velocity. keys: of the resolved case"""
+    """Effects chosen for the case, as overrides: the same for every run, though the choice follows from the velocity. keys: of the case"""
     laws, chosen = keys["effects"], keys.get("chooser", {}).get("chosen", [])
     surfaces = SURFACES if "cohesion" in chosen and "cohesion" in laws else ()  # what cohesion was weighed with
     return ([f'effects.{role}="{laws.get(role, "none")}"' for role in chosen]

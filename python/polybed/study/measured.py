@@ -1,5 +1,4 @@
-"""What runs have measured: columns of their histories, and what `polybed measure` says: means over a window of time with the half-widths
-of their 95 % intervals."""
+"""What runs have measured: columns of histories, and the means of `polybed measure` with their 95 % intervals."""
 
 from typing import NamedTuple
 

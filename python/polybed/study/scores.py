@@ -42,8 +42,7 @@ def score(value=None, error=None, goal=None):
 
 
 def on_top(centres):
-    """The species with the highest centre; certain if the two highest differ by more than the interval of their difference. None for one
-    species. centres: time means by species"""
+    """The species with the highest mean centre, certain beyond the interval of the difference; None for one. centres: by species"""
     if len(centres) < 2 or None in centres.values():
         return None
     (name, first), (_, second) = sorted(centres.items(), key=lambda entry: -entry[1].mean)[:2]
@@ -79,8 +78,7 @@ def height_score(tfm, dem):
 
 
 def scores_of(means, measures, distances, species, kinds):
-    """Scores by name, e_H, e_b, D1, profile_<name>, and the order of the layers. means: by model and name; kinds: species with their classes
-    as one"""
+    """Scores by name, and the order of the layers. means: by model and name; kinds: species with their classes as one"""
     found = {"e_H": height_score(*(of["bed_height_m"] for of in means.values()))}
     if len(kinds) > 1:
         b = measures["centre_difference"]
@@ -92,8 +90,7 @@ def scores_of(means, measures, distances, species, kinds):
 
 
 def compare(tfm, dem):
-    """What comparison.json says of two runs of one case, opened by `measured`, and the number of their profiles in the window. Raises ProgramError
-    if their species or slabs are not the same."""
+    """comparison.json of two runs of one case, and their profiles in the window. Raises ProgramError if species or slabs differ."""
     window, runs, distances = means_of(tfm.directory, beside=dem.directory)
     by_model, species = dict(zip(MODELS, runs)), list(runs[0].fraction)
     kinds = list(kinds_among(species))

@@ -46,8 +46,7 @@ def require_rising(table, sigma, moved):
 
 
 def late_means(directory):
-    """Means of bed height and normalised centre difference over the window in which runs are compared, by name; None for what a run has
-    not."""
+    """Means of bed height and centre difference over the window of comparisons, by name; None for what a run lacks."""
     means = means_of(directory).runs[0].means
     return {name: means[name].mean if name in means else None for name in ("bed_height_m", "centre_difference")}
 

@@ -56,8 +56,7 @@ def read_recorded(folder):
 
 
 def merged(blocks, new):
-    """Recorded blocks, those of the same entry, model and runs replaced, and by one of all runs those of some; in the order of their
-    names."""
+    """Recorded blocks with those of the same entry, model and runs replaced; one of all runs replaces those of some. Sorted."""
     whole = {(block["entry"], block["model"]) for block in new if not block.get("runs")}
     kept = [block for block in blocks if (block["entry"], block["model"]) not in whole]
     found = {(block["entry"], block["model"], *block.get("runs", [])): block for block in (*kept, *new)}
