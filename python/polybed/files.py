@@ -184,11 +184,8 @@ def rising(values, name):
 
 @contextlib.contextmanager
 def in_place(path, ending=".temporary"):
-    """The path to write under a temporary name in the same folder, `path.name + ending`; if all went well it is flushed to the disk and
-    renamed.
-
-    The temporary file is new: a link that has its name, in a folder that others may write, is removed and not followed.
-    """
+    """The path to write under a temporary name in the same folder, which is then flushed to the disk and renamed. It is new: a link that has
+    its name, in a folder that others can write, is removed and not followed."""
     temporary = path.with_name(path.name + ending)
     temporary.unlink(missing_ok=True)
     os.close(os.open(temporary, os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_NOFOLLOW, 0o666))

@@ -16,10 +16,8 @@ def plain(text):
 
 @contextlib.contextmanager
 def needed(of_program):
-    """Around imports: tells in a line which package the interpreter lacks, and what to do.
-
-    of_program: whether the imports are those of `python3 -m polybed.MODULE`, which ends there; else ImportError is raised.
-    """
+    """Around imports: names a package that the interpreter lacks, and what to do. of_program: of `python3 -m polybed.MODULE`, which ends
+    there; else ImportError is raised."""
     for stream in (sys.stdout, sys.stderr) if of_program else ():  # all is plain that this process prints from now on
         if stream is not None and "write" not in vars(stream):
             stream.write = lambda text, write=stream.write: write(plain(text))

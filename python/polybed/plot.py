@@ -1,7 +1,4 @@
-"""Draws a finished or a running run: what `polybed plot` and the end of `polybed tfm` hand over to.
-
-In place of RUN stands the folder of a study, which is drawn as at its end.
-"""
+"""Draws a run, or in its place the folder of a study as at its end: what `polybed plot` and the end of a run hand over to."""
 
 import argparse
 import importlib

@@ -247,15 +247,11 @@ def wait_for(child: Child) -> int:
             child.terminate()
 
 
-def interrupt(_signal: int, _frame: Any) -> None:
-    raise KeyboardInterrupt
-
-
 def run(*words: object, answers: bool = False) -> None:
     """Runs the program, on as many ranks as this process was started with, and waits for its end. It speaks on standard error; its answer
     is that of the study if it `answers`, and else goes there too. Raises StudyError with the run's code; the text is empty if the run has
     said what is wrong."""
-    signal.signal(signal.SIGTERM, interrupt)
+    signal.signal(signal.SIGTERM, signal.default_int_handler)
     count = ranks()
     child = start(words, count, True, stdout=None if answers else sys.stderr)
     code = wait_for(child)

@@ -6,9 +6,9 @@ import time
 from pathlib import Path
 
 from polybed.ending import DONE, WRONG_CASE, StudyError, answer, guarded, parser_of, whole
-from polybed.calibration import bed, fit
+from polybed.calibration import fit
 from polybed.calibration.boxes import Boxes, Plan, asked_of
-from polybed.calibration.text import box_lines, deviation, deviation_lines, points_between, table_toml
+from polybed.calibration.text import bed_lines, bed_rows, box_lines, deviation, deviation_lines, points_between, table_toml
 from polybed.texts import duration
 from polybed.files import in_place, put_text
 from polybed.program import name_of
@@ -104,10 +104,10 @@ def say_table(options, plan, count, tested):
 
 def finish_bed(options, plan, boxes):
     """Fluidised boxes: p_bed by both measures, and the table of that by slabs."""
-    table = bed.bed_table(plan.seeds, boxes, plan.case["weight_m2_s2"])
-    lines = bed.bed_lines(boxes) + "\n" + bed.bed_rows(table)
+    table = fit.bed_table(plan.seeds, boxes, plan.case["weight_m2_s2"])
+    lines = bed_lines(boxes) + "\n" + bed_rows(table)
     keep(options, "boxes.txt", lines)
-    bed.require_usable(table)
+    fit.require_usable_bed(table)
     identify(table, plan)
     with in_place(options.output / "table.h5") as path:
         table.write(path)

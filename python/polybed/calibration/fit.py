@@ -13,6 +13,7 @@ from polybed.solids_table import AXES, SolidsTable
 SCATTER_SEEDS = 3  # from so many seeds on their scatter alone is the error of their mean; points that scatter get more seeds
 MOST_SEEDS = 10  # of a point
 GREATEST_RESIDUAL = 0.05  # of a fit that may be used, and the greatest standard error of its points
+AGREEMENT = 0.05  # what both measures of the pressure of a bed can differ by
 LEAST_TO_LEAVE_OUT = 4  # solids fractions from which on one can be left out and read from the others
 
 
@@ -24,10 +25,9 @@ def student_one_sigma(degrees):
 
 
 def mean_of_seeds(seeds):
-    """Mean over seeds, (mean, error) of each, and its error: t s/sqrt(n), s the standard deviation of the n boxes about their mean and t
-    Student's factor. Seeds are independent, and blocks of one are not: they remember the start, which makes their error too small, and
-    count as error what all boxes lose on their way, which makes it too great. Of two seeds, the error of the boxes' own together if it is
-    more; of one that."""
+    """Mean of (mean, error) of seeds, and its error t s/sqrt(n), with the standard deviation s of the n boxes and Student's factor t. Blocks
+    of one box are not independent: they remember the start, and count what all boxes lose on their way. Of two seeds at least the boxes'
+    own errors together; of one its own."""
     (means, errors), n = zip(*seeds), len(seeds)
     mean, inner = float(np.mean(means)), math.hypot(*errors) / n
     if n < 2:
@@ -148,3 +148,35 @@ def require_usable(table, falls):
         if seeds > 1 and not error <= GREATEST_RESIDUAL:
             raise StudyError(NUMBERS, f"at phi = {phi:g} the seeds scatter: p or mu has a standard error of {100 * error:.1f} %, {allowed}; "
                                    "raise calibrate.seeds or calibrate.particles")
+
+
+def bed_table(seeds, boxes, weight):
+    """Means over the seeds of each point, in rising phi. weight: |rho_p - rho_f| g D/rho_p, m2/s2"""
+    points = grouped(boxes, seeds)
+    slabs, balance = ([mean_of_seeds([tuple(box[name]) for box in point]) for point in points] for name in ("p_bed", "p_bed_by_balance"))
+    return SolidsTable({
+        "phi": [sum(box["bed_phi"] / len(point) for box in point) for point in points],
+        "p_bed": [mean for mean, _ in slabs], "p_bed_se": [error for _, error in slabs],
+        "p_bed_n": [float(len(point)) for point in points],
+        "p_bed_by_balance": [mean for mean, _ in balance], "p_bed_by_balance_se": [error for _, error in balance],
+        "theta_bed": [sum(box["theta_m2_s2"][0] / len(point) for box in point) / weight for point in points],
+        "velocity": [point[0]["velocity_m_s"] for point in points],
+    }, {"regime": "bed", "units": "p_bed over |rho_p - rho_f| g D; theta_bed over that and rho_p; velocity m/s"})
+
+
+def rows_of_bed(table):
+    """(phi, p_bed by slabs, its error, by the balance of forces, its error) of each row."""
+    return list(zip(*(table[name] for name in ("phi", "p_bed", "p_bed_se", "p_bed_by_balance", "p_bed_by_balance_se"))))
+
+
+def require_usable_bed(table):
+    """Raises StudyError where the pressure does not rise, or where both measures differ by more than AGREEMENT and two standard errors."""
+    last = None
+    for phi, slabs, slabs_error, balance, balance_error in rows_of_bed(table):
+        off = abs(balance - slabs)
+        if off > AGREEMENT * abs(slabs) and off > 2 * math.hypot(slabs_error, balance_error):
+            raise StudyError(NUMBERS, f"at phi = {phi:.3f} the pressure is {slabs:.4g} by slabs and {balance:.4g} by the balance of forces, "
+                                   f"over the unit: {100 * off / abs(slabs):.0f} % apart, {100 * AGREEMENT:.0f} % are allowed")
+        if last and not (phi > last[0] and slabs > last[1]):
+            raise StudyError(NUMBERS, f"p_bed falls between phi = {last[0]:.3f} and {phi:.3f}: {last[1]:.4g} and {slabs:.4g}")
+        last = phi, slabs

@@ -6,7 +6,7 @@ import math
 import numpy as np
 
 from polybed.calibration.boxes import Point
-from polybed.calibration.fit import relative_errors, shear_number
+from polybed.calibration.fit import relative_errors, rows_of_bed, shear_number
 from polybed.solids_table import AXES
 from polybed.texts import right_table
 
@@ -115,3 +115,17 @@ def deviation_lines(points, deviations):
 
     head = ("phi", "St", "p, box over table", "mu, box over table")
     return right_table(head, [[f"{point.phi:.4g}", f"{point.stokes:.4g}", told(*p), told(*mu)] for point, (p, mu) in zip(points, deviations)])
+
+
+def bed_lines(boxes):
+    head = ("planned", "phi", "seed", "p_bed by slabs", "by balance", "slabs/balance")
+    return right_table(head, [[f"{box['solids_fraction']:g}", f"{box['bed_phi']:.4f}", box["seed"], measured(box["p_bed"]),
+                               measured(box["p_bed_by_balance"]), f"{box['p_bed'][0] / box['p_bed_by_balance'][0]:.3f}"] for box in boxes])
+
+
+def bed_rows(table):
+    head = ("mm/s", "phi", "p_bed by slabs", "by balance", "difference", "theta")
+    return right_table(head, [[f"{1e3 * velocity:.3f}", f"{phi:.4f}", measured((slabs, slabs_error)), measured((balance, balance_error)),
+                               f"{100 * (balance / slabs - 1):+.1f} %", f"{theta:.3g}"]
+                              for (phi, slabs, slabs_error, balance, balance_error), velocity, theta in zip(rows_of_bed(table), table["velocity"],
+                                                                                                           table["theta_bed"])])

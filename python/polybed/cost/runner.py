@@ -27,10 +27,7 @@ STEP = re.compile(r"\d{6,}\.h5(\.temporary)?")
 
 
 def counters_of(record, cells):
-    """Counters of a run's record by the names of run.json; those that grow with the case are multiplied by its size.
-
-    cells: of the fluid of a run of particles
-    """
+    """Counters of a run's record; those that grow with the case are multiplied by its size. cells: of the fluid of a particle run"""
     work = record["work"]
     if record["model"] == "tfm":
         unknowns = record["unknowns"]

@@ -61,10 +61,7 @@ def field_frames(run):
 
 
 def film(run, path, rate=None, progress=None):
-    """Writes the film to a path that ends in .mp4 or .gif.
-
-    progress: called with the number of frames done and in all.
-    """
+    """Writes the film to a path that ends in .mp4 or .gif. progress: called with the numbers of frames done and in all"""
     if count := len(run.particles):
         views, digits = views_of(run, range(count)), digits_of(run.particles.time)
         figure, show = views.figure, lambda step: views.show(step, digits)

@@ -1,8 +1,5 @@
-"""Two runs of one case beside each other: maps and particles at an instant, mean profiles, what is measured in time; and comparison.html,
-the page of a comparison.json.
-
-The two-fluid model is drawn in full lines, the particles in broken ones, a species in its colour in both.
-"""
+"""Two runs of one case beside each other, and comparison.html. The two-fluid model is drawn in full lines, the particles in broken ones, a
+species in its colour in both."""
 
 import shlex
 from pathlib import Path
@@ -79,11 +76,7 @@ def draw_instant(runs, time, top):
 
 
 def draw_profiles(runs, means):
-    """Mean profile of each species over the window, with the 95 % interval of that mean as a band. None if no run has stored a
-    profile in the window.
-
-    means: "mean_profiles" of comparison.json
-    """
+    """Mean profile of each species over the window, `mean_profiles` of comparison.json, with the band of its 95 % interval; None without any."""
     species = runs["tfm"].species or runs["dem"].species
     figure, all_axes = plt.subplots(1, len(species), figsize=(1 + 2.6 * len(species), 4.2), sharey=True, squeeze=False,
                                     constrained_layout=True)

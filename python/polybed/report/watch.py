@@ -1,8 +1,5 @@
-"""Serves a page that follows a run, on the loopback address: what `polybed watch` hands over to.
-
-The page is report.html with the progress above it; it asks for new data as long as the run goes on. The server ends with the run, once
-a browser that looks has had the last state.
-"""
+"""Serves report.html with the progress above it on the loopback address: what `polybed watch` hands over to. The page asks for new data as
+long as the run goes on; the server ends with the run, once a browser has had the last state."""
 
 import argparse
 import os

@@ -1,10 +1,7 @@
-"""What the uncertainty of a drag law means for an answer: what `--closure-uncertainty` of `polybed inversion` and of `polybed tfm` hands
-over to.
+"""The band of an answer by that of a drag law: what `--closure-uncertainty` of `polybed inversion` and of `polybed tfm` hands over to.
 
-Its argument is a JSON object: what the command line says. The factor that all sizes have in common and the ratio of the sizes are moved apart,
-each by the law's band, and the answer is found again: by force balance, or by runs. What they change is added in squares. The answer with
-both moved at once is compared with the sum of what each changes.
-"""
+Its argument is a JSON object: what the command line says. The common factor and the ratio of the sizes are moved apart, each by the law's
+band, and the answer is found again, by force balance or by runs. The changes are added in squares, and compared with both moved at once."""
 
 import json
 import math

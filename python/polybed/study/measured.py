@@ -73,11 +73,8 @@ class Means(NamedTuple):
 
 
 def means_of(directory, beside=None, begin=None, slabs=None):
-    """Means over the last quarter of the time that runs have, or what the marginal standard error rule leaves of it. Raises FormatError or
-    ProgramError if there is none.
-
-    begin: of another window up to the end, s; slabs: number of those on which the profiles are laid first
-    """
+    """Means over the last quarter, or what the marginal standard error rule leaves of it. Raises FormatError or ProgramError without any.
+    begin: of another window up to the end, s; slabs: number of those on which the profiles are laid first"""
     options = {"--beside": beside, "--begin": begin, "--slabs": slabs}
     words = [word for name, value in options.items() if value is not None for word in (name, value)]
     found = answer_of("measure", directory, *words)

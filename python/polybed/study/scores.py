@@ -113,11 +113,8 @@ def compare(tfm, dem):
 
 
 def add_inversion(comparison, scan, path, velocity):
-    """Adds the result of a scan by both models as the score u_inv. Near an inversion the goal of D1 is wider, because a small difference
-    decides about the layers there.
-
-    scan: inversion.json; path: its file; velocity: at which the runs of the comparison are, m/s, or None
-    """
+    """Adds a scan by both models (inversion.json at a path) as the score u_inv. Near an inversion the goal of D1 is wider, because a small
+    difference decides about the layers there. velocity: of the comparison, m/s, or None"""
     scores = comparison["scores"]
     found = [scan["models"][model]["velocity_m_s"] for model in MODELS]
     near = velocity is not None and bool((np.abs(velocity / np.array(found) - 1) <= NEAR_INVERSION).any())

@@ -1,8 +1,5 @@
-"""What the standard errors of a table of the solids stress mean for a bed: what `polybed tfm --stress-uncertainty` hands over to.
-
-Its argument is a JSON object: what the command line says. The case is run with its table, and with the table at plus and minus one standard
-error; stress_uncertainty.json has the band of bed height and centre difference.
-"""
+"""What the standard errors of a table of stresses mean for a bed: what `polybed tfm --stress-uncertainty` hands over to, with what the
+command line says as a JSON object. The case is run with its table, and with the table at plus and minus one standard error."""
 
 import json
 import os

@@ -1,7 +1,5 @@
-"""Entries: folders of cases/validation, each with a bed that was measured and `validation.toml`, which says what is compared.
-
-Measured numbers come from CSV files, a case script or the case itself. No entry contains a number of a model.
-"""
+"""Folders of cases/validation, each with a bed that was measured and `validation.toml`, which says what is compared. Measured numbers come
+from CSV files, a case script or the case itself."""
 
 import importlib.util
 import tomllib

@@ -1,7 +1,4 @@
-"""Both sides of a comparison: a measured number and a number of a run, each with its 95 % interval; and the verdict.
-
-Means, intervals and windows are those of polybed.study.
-"""
+"""Both sides of a comparison, a measured number and that of a run, each with its 95 % interval; and the verdict."""
 
 import math
 from typing import NamedTuple

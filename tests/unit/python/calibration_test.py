@@ -19,9 +19,9 @@ import numpy as np
 os.environ["POLYBED"], PACKAGE = os.path.abspath(sys.argv[1]), sys.argv[2]
 sys.path.insert(0, PACKAGE)
 
-from polybed.calibration import bed, fit
+from polybed.calibration import fit
 from polybed.calibration.boxes import MEANS, SINGLE, Boxes, Plan, Point, read_box
-from polybed.calibration.text import box_lines, deviation, deviation_lines, points_between
+from polybed.calibration.text import bed_rows, box_lines, deviation, deviation_lines, points_between
 from polybed.ending import NUMBERS, StudyError
 from polybed.errors import ProgramError
 from polybed.runner import asked, running
@@ -207,20 +207,20 @@ class Bed(unittest.TestCase):
             p = (1.0 if n < 2 else 3.0) + 0.02 * (n % 2)
             boxes.append({"bed_phi": 0.28 if n < 2 else 0.46, "p_bed": [p, 0.002], "p_bed_by_balance": [1.03 * p, 0.002],
                           "theta_m2_s2": [2e-6, 0.0], "velocity_m_s": 0.02 if n < 2 else 0.01})
-        table = bed.bed_table([2, 2], boxes, 4e-6)
+        table = fit.bed_table([2, 2], boxes, 4e-6)
         self.assertAlmostEqual(table["p_bed"][0], 1.01, delta=1e-14)
         self.assertAlmostEqual(table["p_bed_se"][0], 0.018373372, delta=1e-9)
         self.assertAlmostEqual(table["p_bed_by_balance"][0] / table["p_bed"][0] - 1, 0.03, delta=1e-14)
         self.assertAlmostEqual(table["theta_bed"][1], 0.5, delta=1e-14)
         self.assertEqual((table["velocity"][1], table["p_bed_n"]), (0.01, [2, 2]))
-        bed.require_usable(table)
-        self.assertIn("+3.0 %", bed.bed_rows(table))
+        fit.require_usable_bed(table)
+        self.assertIn("+3.0 %", bed_rows(table))
         table["p_bed_by_balance"][1] *= 1.1
         with self.assertRaisesRegex(StudyError, "at phi = 0.460 .* 13 % apart, 5 % are allowed"):
-            bed.require_usable(table)
+            fit.require_usable_bed(table)
         table["p_bed"][1] = table["p_bed_by_balance"][1] = 0.9
         with self.assertRaisesRegex(StudyError, "p_bed falls between phi = 0.280 and 0.460"):
-            bed.require_usable(table)
+            fit.require_usable_bed(table)
 
 
 class Scratch(unittest.TestCase):
