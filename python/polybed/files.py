@@ -25,14 +25,14 @@ class FormatError(PlainError):
 
 
 class DamagedError(FormatError):
-    """A file does not hold what a file of its kind holds."""
+    """A file lacks what a file of its kind contains."""
 
     def __init__(self, path, what):
         super().__init__(f"{path} is damaged: {' '.join(str(what).split())}; make it again with polybed, or restore it from a copy")
 
 
 class ReplacedError(PlainError):
-    """A folder holds another run than the one that was opened."""
+    """A folder contains another run than the one that was opened."""
 
 
 # What a command tells in one line.
@@ -108,7 +108,7 @@ def finite(text):
 
 
 def read_json(path: str | os.PathLike[str], filetype: str) -> dict[str, Any]:
-    """What a JSON file holds, a dictionary, if the file is what it should be."""
+    """The contents of a JSON file, a dictionary, if the file is what it should be."""
     with contents_of(path):
         found = json.loads(read_text(path))
         if not isinstance(found, dict):

@@ -1,6 +1,6 @@
 """What all pages share: looks, tables, escaped text and pictures, in one HTML file that needs no other.
 
-Text becomes HTML in one way: what is no Html yet is escaped where it enters a page, so that nothing that a file says is read as HTML. And a
+Text becomes HTML in one way: text that is not Html is escaped where it enters a page, so that nothing from a file is read as HTML. And a
 page names its scripts by their hashes: a browser runs no other, nor a handler in an element, and loads nothing.
 """
 

@@ -96,7 +96,7 @@ def draw_one(run, what, time, folder, ending, rate=None, progress=None):
 
 
 def pictures(directory, what=None, time=None, out=None, ending="png", rate=None, progress=None):
-    """Draws the chosen pictures of a run (all that it holds) into a folder (RUN/pictures) and returns their paths."""
+    """Draws the chosen pictures of a run (by default all) into a folder (RUN/pictures) and returns their paths."""
     run = Snapshot(directory)
     what = kinds_of(run) if what is None else what
     if unknown := set(what) - set(WHAT):

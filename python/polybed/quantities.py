@@ -1,4 +1,4 @@
-"""Numbers with their unit: what a run holds, by name."""
+"""The numbers of a run by name, with their units."""
 
 from __future__ import annotations
 

@@ -262,7 +262,7 @@ def run(*words: object, answers: bool = False) -> None:
 
 
 def has_checkpoint(directory: str | os.PathLike[str]) -> bool:
-    """Whether a run can go on from what is there."""
+    """Whether a run can continue from this directory."""
     return any(os.path.exists(os.path.join(directory, name)) for name in CHECKPOINTS)
 
 

@@ -22,7 +22,7 @@ from polybed.files import DamagedError, fits, open_hdf5
 from polybed.page import table
 from polybed.quantities import unknown
 
-# Units of what is no ratio and no fraction; pressures of a fluidised bed are told over the weight of a layer of one diameter.
+# Units of all but ratios and fractions; pressures of a fluidised bed are over the weight of a layer of one diameter.
 BED = "(rho_p - rho_f) g D"
 UNITS = {"velocity": "m/s", "theta_bed": BED + "/rho_p"}
 AXES = ("phi", "stokes", "e", "mu_p", "x2")  # of sheared particles, in the order of the arrays
@@ -36,7 +36,7 @@ def numbers(name: str, data: Any) -> np.ndarray:
 
 
 def checksum(arrays: Any) -> int:
-    """CRC-32 of arrays by name, what the attribute crc32 of a table holds: over all numbers as doubles with the low byte first,
+    """CRC-32 of arrays by name, the attribute crc32 of a table: over all numbers as doubles with the low byte first,
     in the order of the names. A table that you write yourself gets it by file.attrs["crc32"] = checksum(file)."""
     found = 0
     for name in sorted(arrays):

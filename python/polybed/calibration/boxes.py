@@ -112,7 +112,7 @@ class Boxes:
         return sum(self.expected[n] for n in self.left())
 
     def run(self):
-        """Runs what is not finished; all results. Raises StudyError where boxes fail; finished ones are kept."""
+        """Runs the unfinished boxes; all results. Raises StudyError where boxes fail; finished ones are kept."""
         self.begin, self.all = time.monotonic(), self.expected_left()
         failed = self.run_on_ranks() if self.options.on_ranks else self.run_as_processes()
         if failed:

@@ -77,7 +77,7 @@ def show_plan(options, plan, boxes):
 
 def check_table(options, door, plan):
     """Runs points between the knots of a table and says how they compare."""
-    door.ask("table", table=options.check)  # ends for what is none
+    door.ask("table", table=options.check)  # ends for a file that is no table
     table = read_table(options.check)
     if table.attributes["regime"] != plan.regime:
         raise StudyError(WRONG_CASE, f"{options.check} is a {table.attributes['regime']} table, the boxes of the case are {plan.regime}: "
@@ -156,7 +156,7 @@ def finish_sheared(options, door, plan, boxes, table):
 def calibrate(options, door):
     plan = Plan.of_case(door.ask("case", case=options.case, settings=options.set))
     if options.bed:
-        door.ask("bed", table=options.bed)  # ends for what is none
+        door.ask("bed", table=options.bed)  # ends for a file that is no table
     if options.on_ranks and options.jobs > 1:
         raise StudyError(WRONG_CASE, "-j starts processes of its own: under mpirun the ranks run the boxes, leave it out")
     if options.plan:

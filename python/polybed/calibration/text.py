@@ -66,7 +66,7 @@ def unit_of(box):
 
 
 def table_lines(boxes, quantities):
-    """A line for each box, at most 100 columns wide, below what is the same in all of them."""
+    """A line for each box, at most 100 columns wide, below the entries that all of them share."""
     texts = {name: [text(box) for box in boxes] for name, text in PLACE + quantities}
     same = [name for name, _ in PLACE[1:-1] if len(set(texts[name])) == 1]
     head = [name for name in texts if name not in same]

@@ -126,7 +126,7 @@ def sweep(given):
 
 
 def held(what, unit, claimed, found, allowed):
-    """Whether a claim holds, and a line that says so."""
+    """Whether a claim is confirmed, and a line that says so."""
     holds = abs(found - claimed) <= allowed
     return holds, (f"{what}: claimed {claimed:.4g}, found {found:.4g} {unit}, allowed {allowed:.2g} either way: "
                    f"{'holds' if holds else 'does not hold'}")

@@ -56,7 +56,7 @@ def predicted(sweeper):
 
 
 def run_front(sweeper):
-    """Runs the front of what is predicted, nearest the target first."""
+    """Runs the predicted front, nearest the target first."""
     points = list(predicted(sweeper))
     front = [points[n] for n in pareto_front([priced for _, priced in points]) if isfinite(points[n][1].error)]
     front.sort(key=lambda point: abs(log(max(point[1].error, 1e-12) / sweeper.sweep.options.target)))

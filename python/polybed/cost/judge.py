@@ -54,7 +54,7 @@ def distance_of(sweep, row, other):
 
 
 def ranked(sweep, row):
-    """Error and interval of the ranking quantity; None for what is not ranked."""
+    """Error and interval of the ranking quantity; None if it is not ranked."""
     ranks = row.kind == CANDIDATE and row.done and row.outcome.invariants_held
     return row.quantities.get(sweep.ranking) if ranks else None
 

@@ -84,7 +84,7 @@ def sweep_json(sweep, scene, overrides):
 
 
 def settings_words(found, run):
-    """The settings of a run in words, and what is special about it."""
+    """The settings of a run in words, and its note."""
     first = next((one["settings"] for one in found["runs"] if one["settings"]), {})
     words = [in_words(axis, level) for axis, level in run["settings"].items() if axis in ALWAYS or level != first.get(axis)]
     return ", ".join(words + ([run["note"]] if run["note"] else [])) or run["kind"]

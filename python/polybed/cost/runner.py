@@ -60,7 +60,7 @@ class RunOrder(NamedTuple):
 @dataclass
 class RunOutcome:
     state: str  # done | failed | refused | not run
-    reason: str = ""  # of what is not done
+    reason: str = ""  # if not done
     wall: float = 0.0  # s, of the first time it was run
     cpu: float = 0.0  # s, without output
     simulated: float = 0.0

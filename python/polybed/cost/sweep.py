@@ -43,7 +43,7 @@ def part(row):
 
 
 def percent(share, error=None):
-    """"0.4 ± 0.1 %"; a dash for what is not known."""
+    """"0.4 ± 0.1 %"; a dash without a number."""
     if share is None:
         return "\u2013"
     return f"{100 * share:.2g}" + (f" \u00b1 {100 * error:.1g}" if error else "") + " %"
@@ -108,7 +108,7 @@ class Row:
     order: RunOrder
     kind: str = CANDIDATE
     settings: dict = field(default_factory=dict)  # level of each axis by its number; an axis left out has the given one
-    note: str = ""  # of what is not told by the settings: "temperature + 1 K"
+    note: str = ""  # what the settings do not say: "temperature + 1 K"
     outcome: RunOutcome | None = None
     measured: RunQuantities = field(default_factory=RunQuantities)
     quantities: dict = field(default_factory=dict)  # RowQuantity by name

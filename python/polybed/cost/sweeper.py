@@ -119,7 +119,7 @@ class Sweeper:
             row.measured.values["bed_height"] = TimeMean(height)
 
     def run(self, row, most=1.0):
-        """Runs what is not among the rows yet; returns its row. most: share of the budget that it may be expected to take"""
+        """Runs an order that is not among the rows yet; returns its row. most: share of the budget that it may be expected to take"""
         sweep = self.sweep
         known = sweep.find(row.order, row.kind)
         if known:

@@ -63,7 +63,7 @@ def packed(values):
 
 
 def levels(values, low, high, kind=np.uint8):
-    """Values as levels of one byte or two between the ends of a scale, which can be arrays; the highest is empty, of what is no number."""
+    """Values as levels of one byte or two between the ends of a scale, which can be arrays; the highest stands for no number."""
     empty = np.iinfo(kind).max
     share = (np.asarray(values, np.float32 if kind is np.uint8 else float) - low) / np.where(np.greater(high, low), np.subtract(high, low), 1)
     with np.errstate(invalid="ignore"):
@@ -78,7 +78,7 @@ def changes(values):
 
 
 def plain_numbers(values, digits=5):
-    """Numbers for JSON, to some digits; null for what is none."""
+    """Numbers for JSON, to some digits; null for others."""
     return [float(f"{value:.{digits}g}") if np.isfinite(value) else None for value in np.asarray(values, dtype=float)]
 
 

@@ -77,7 +77,7 @@ def say(line):
 
 
 def finished(directory):
-    """Whether a folder holds a finished run; its name says of which case."""
+    """Whether a folder contains a finished run; its name says of which case."""
     path = Path(directory) / "run.json"
     return path.exists() and read_record(path)["state"] == "done"
 
