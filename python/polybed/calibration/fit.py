@@ -17,13 +17,6 @@ AGREEMENT = 0.05  # what both measures of the pressure of a bed can differ by
 LEAST_TO_LEAVE_OUT = 4  # solids fractions from which on one can be left out and read from the others
 
 
-def student_one_sigma(degrees):
-    """Student's factor of one standard error: half-width of the two-sided 68.27 % interval."""
-    if degrees < 1:
-        raise ValueError("no degrees of freedom")
-    return float(stdtrit(degrees, ndtr(1)))
-
-
 def mean_of_seeds(seeds):
     """Mean of (mean, error) of seeds, and its error t s/sqrt(n), with the standard deviation s of the n boxes and Student's factor t. Blocks
     of one box are not independent: they remember the start, and count what all boxes lose on their way. Of two seeds at least the boxes'
@@ -32,7 +25,7 @@ def mean_of_seeds(seeds):
     mean, inner = float(np.mean(means)), math.hypot(*errors) / n
     if n < 2:
         return mean, inner
-    outer = student_one_sigma(n - 1) * float(np.std(means, ddof=1)) / math.sqrt(n)
+    outer = float(stdtrit(n - 1, ndtr(1)) * np.std(means, ddof=1)) / math.sqrt(n)  # 68.27 %
     return mean, max(inner, outer) if n < SCATTER_SEEDS else outer
 
 

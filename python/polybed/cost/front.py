@@ -5,9 +5,8 @@ from math import inf, isfinite, log
 from statistics import median
 
 from polybed.cost.axes import NUMERICS, acting_axes, setting
-from polybed.cost.fit import Priced, fit_power_law, pareto_front
-from polybed.cost.judge import distance_of, scale_of
-from polybed.cost.sweep import INPUT, MODEL, REFERENCE, SOLVER, Row, Share, in_words
+from polybed.cost.judge import distance_of, fit_power_law, pareto_front, scale_of
+from polybed.cost.sweep import INPUT, MODEL, REFERENCE, SOLVER, Priced, Row, Share, in_words
 
 MOST_FRONT = 6  # runs of the predicted front
 

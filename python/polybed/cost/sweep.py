@@ -5,7 +5,6 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import NamedTuple
 
-from polybed.cost.fit import Priced
 from polybed.cost.runner import RunOrder, RunOutcome
 from polybed.quantities import TABLE
 from polybed.study.measured import centre_column, means_of, species_of
@@ -93,6 +92,11 @@ def quantities_of_run(run, begin, slabs):
     if len(species) > 1 and "interface_m" in measured.of_profile:
         found.values["interface"] = measured.of_profile["interface_m"]
     return found
+
+
+class Priced(NamedTuple):
+    error: float
+    cost: float
 
 
 class RowQuantity(NamedTuple):

@@ -103,7 +103,7 @@ def fit(given, folder):
     record = {"filetype": "polybed drag fit", "version": 1, **about, "law": str(folder / "law.json"), "constants": constants,
               "published": problem.published, "interval": interval_of(problem, drawn), "errors": summaries, "band": band,
               "from_constants": band_of_draws(problem, drawn), "guard_answers_by": float(off),
-              "constraints": {"greatest_violation": broken, "sum_rule": sum_rule(points, nets, given.form)}}
+              "constraints": {"greatest_violation": broken, "sum_rule": sum_rule(points, nets)}}
     bands = partition_bands(points, f"file:{folder / 'law.json'}")
     write_law(folder / "law.json", law_file(given.form, constants, band=band, partition_bands=bands, fit=about))
     (folder / "accuracy.md").write_text(page(record), encoding="utf-8")
@@ -111,7 +111,7 @@ def fit(given, folder):
     return record
 
 
-def sum_rule(points, nets, form):
+def sum_rule(points, nets):
     """Greatest departure of sum x_j n_j/y_j^2 from the law's mean, f_mean/eps: rounding, as both forms keep it. None without mixtures."""
     worst = None
     for p, net in zip(points, nets):

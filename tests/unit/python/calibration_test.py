@@ -77,14 +77,6 @@ class Seeds(unittest.TestCase):
         self.assertAlmostEqual(fit.mean_of_seeds([(1, 0.02), (1.1, 0.02)])[1], 1.8373372 * 0.05, delta=1e-7)
         self.assertEqual(fit.mean_of_seeds(seeds[:1])[1], 0.2)
 
-    def test_students_one_sigma(self):
-        """Of one degree of freedom, Cauchy's, it is tan(0.6827 pi/2) = 1.837; from tables 1.059 at 9 and 1.053 at 10, 1 at many."""
-        self.assertAlmostEqual(fit.student_one_sigma(1), math.tan(0.6826895 * math.pi / 2), delta=1e-6)
-        self.assertEqual((round(fit.student_one_sigma(3), 3), round(fit.student_one_sigma(9), 3)), (1.197, 1.059))
-        self.assertAlmostEqual(fit.student_one_sigma(10), 1.0526, delta=2e-4)
-        self.assertAlmostEqual(fit.student_one_sigma(100000), 1, delta=1e-5)
-        self.assertRaises(ValueError, fit.student_one_sigma, 0)
-
     def test_seeds_are_added_where_they_scatter(self):
         """s is the scatter, the standard error 1.321 s/sqrt(3): 0.06 gives 4.6 %, 0.07 gives 5.3 % and a seed more at that point alone,
         until there are ten."""
