@@ -37,7 +37,7 @@ class ReplacedError(PlainError):
 
 # What a command tells in one line.
 FAULTS = (FormatError, ReplacedError, UnknownNameError, OSError)
-# What taking apart something that does not hold what it should may raise.
+# What reading contents that are not as they should be can raise.
 MISFITS = (KeyError, IndexError, TypeError, ValueError, AttributeError, ArithmeticError, MemoryError, RecursionError, RuntimeError)
 
 
@@ -66,7 +66,7 @@ def check_kind(attributes, filetype, path):
 
 
 def opened(path):
-    """A file to read its bytes. Raises FileNotFoundError, or FormatError for a folder, a pipe or a device, which may never answer."""
+    """A file to read its bytes. Raises FileNotFoundError, or FormatError for a folder, a pipe or a device, which can block for ever."""
     try:
         number = os.open(path, os.O_RDONLY | os.O_NONBLOCK | os.O_CLOEXEC)
     except FileNotFoundError as error:
@@ -90,7 +90,7 @@ def read_bytes(path):
 
 
 def whole_lines(path):
-    """The lines of a text file that end, without their ends: what follows the last end may be cut short."""
+    """The lines of a text file that end, without their ends: what follows the last end can be cut short."""
     return read_text(path).split("\n")[:-1]
 
 

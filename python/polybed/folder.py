@@ -1,11 +1,11 @@
-"""The folder of a run, which may be replaced by another run while somebody reads it, and what its run.json says of the case."""
+"""The folder of a run, which another run can replace while it is read, and what its run.json says of the case."""
 
 import tomllib
 from pathlib import Path
 
 from polybed.files import DamagedError, ReplacedError, contents_of, read_json
 
-# Any of them makes a run directory; an empty one is that of a run that starts.
+# Any of them makes a run directory; an empty one belongs to a run that starts.
 CONTENTS = {".polybed", "run.json", "history.csv", "fields.h5", "profiles.h5", "particles.h5"}
 
 

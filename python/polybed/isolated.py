@@ -42,7 +42,7 @@ if __name__ == "__main__":
     module, sys.argv = sys.argv[1], ["-m", *sys.argv[2:]]  # as Python's own -m leaves it while it imports the package
     sys.path.insert(0, str(PACKAGE.parent))
     sys.meta_path.insert(0, MatplotlibFromPackage)
-    os.environ["MPLBACKEND"] = "Agg"  # a notebook exports one that this interpreter may not have
+    os.environ["MPLBACKEND"] = "Agg"  # a notebook exports one that this interpreter can lack
     from polybed.packages import needed
     with needed(True):
         main = importlib.import_module(module).main

@@ -9,7 +9,7 @@ CONTROL = re.compile("[\0-\x08\x0b-\x1f\x7f-\x9f\u202a-\u202e\u2066-\u2069]")
 
 
 def plain(text):
-    """A text as a terminal may get it: control characters, but for line ends and tabs, and marks that turn the direction of writing are
+    """A text fit for a terminal: control characters, except line ends and tabs, and marks that turn the direction of writing are
     shown by their escapes, as core/print.hpp has it. Titles, names and keys of a file act on no terminal."""
     return CONTROL.sub(lambda found: f"\\u{ord(found[0]):04x}", text)
 

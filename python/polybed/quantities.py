@@ -130,7 +130,7 @@ def names(run: Run, source: str | None = None) -> Names:
     return Names({each: sorted({*getattr(run, each)} - {"y_m"}) for each in sources_of(source)})
 
 
-# Measures whose words are not those of the table of measures.
+# Measures with other words than in the table of measures.
 MEASURES = {"centre_difference": "distance of centres/height", "pressure_drop_over_weight": "pressure drop/weight",
             "mixing": "mixing (1 mixed, 0 apart)"}
 

@@ -38,7 +38,7 @@ def fitting(unit, greatest):
 
 
 def fitting_prefix(greatest, power):
-    """The greatest prefix of which there is at least one; the smallest of all if there is none."""
+    """The greatest prefix of which there is at least one, else the smallest."""
     for size, prefix in PREFIXES:
         if greatest * (1 + 1e-9) >= size**power:
             return size**-power, prefix

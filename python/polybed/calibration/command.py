@@ -130,7 +130,7 @@ def tested_lines(tested):
 
 
 def finish_sheared(options, door, plan, boxes, table):
-    """Sheared boxes: what they have measured, and the fitted table if it may be used."""
+    """Sheared boxes: what they have measured, and the fitted table if it can be used."""
     if options.bed:
         of_bed = read_table(options.bed)
         table.arrays |= {"phi_bed": of_bed["phi"], "p_bed": of_bed["p_bed"]}

@@ -1,4 +1,4 @@
-"""From boxes to a table: means over seeds, their errors, and whether the table may be used."""
+"""From boxes to a table: means over seeds, their errors, and whether the table can be used."""
 
 import itertools
 import math
@@ -12,7 +12,7 @@ from polybed.solids_table import AXES, SolidsTable
 
 SCATTER_SEEDS = 3  # from so many seeds on their scatter alone is the error of their mean; points that scatter get more seeds
 MOST_SEEDS = 10  # of a point
-GREATEST_RESIDUAL = 0.05  # of a fit that may be used, and the greatest standard error of its points
+GREATEST_RESIDUAL = 0.05  # of a fit that can be used, and the greatest standard error of its points
 AGREEMENT = 0.05  # what both measures of the pressure of a bed can differ by
 LEAST_TO_LEAVE_OUT = 4  # solids fractions from which on one can be left out and read from the others
 

@@ -71,7 +71,7 @@ class Level:
     label: str  # "1e-3", "18x128"
     value: float = 0  # in the direction of the axis; 0: it has none
     overrides: list = field(default_factory=list)  # "key=value" each
-    model: str = ""  # tfm | dem | force_balance; empty: that of the sweep
+    model: str = ""  # tfm | dem | force_balance; empty: the model of the sweep
 
 
 @dataclass

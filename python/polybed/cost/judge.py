@@ -109,7 +109,7 @@ def measure_errors(sweep, row):
 
 
 def measure_distances(sweep):
-    """Gives the rows the distances of their mean profiles from that of the reference."""
+    """Gives the rows the distances of their mean profiles from the reference's."""
     for row in sweep.rows:
         if row.done and row.measured.directory and sweep.reference.directory:
             found = means_of(row.measured.directory, sweep.reference.directory, sweep.begin, sweep.slabs).distances

@@ -12,7 +12,7 @@ from polybed.program import name_of
 from polybed.runner import commit_and_build
 from polybed.study.output import json_text
 
-ALWAYS = ("rtol", "grid", "scheme", "steps", "coupling")  # axes whose level each row tells, the others where it is not that of the first row
+ALWAYS = ("rtol", "grid", "scheme", "steps", "coupling")  # axes in each row, others where the level differs from the first row
 OUTCOMES = {"refused": "No recommendation", "failed": "The sweep failed"}
 MADE_OF = ("what the error is made of", "change where a datum is off by its usual uncertainty")
 

@@ -107,7 +107,7 @@ class Runner:
         self.spent = 0.0  # s, wall time of all runs that stand for this sweep: those found there count as if they had been done now
 
     def run(self, order, seconds):
-        """Does a run, unless it was done. seconds: wall time that it may take"""
+        """Does a run, unless it was done. seconds: wall time that it is allowed"""
         told = (self.scene.text, " ".join(self.overrides), order.model, "1", " ".join(order.overrides))
         folder = self.folder / hash_of(" ".join(told).encode())
         if folder not in self.seen and not (self.resume and self.ended(folder)):
@@ -122,7 +122,7 @@ class Runner:
 
     @staticmethod
     def ended(folder):
-        """Whether a run lies there that came to its own end, not to that of an earlier budget."""
+        """Whether a run there came to its own end, not to the end of an earlier budget."""
         path = folder / "end.json"
         return path.exists() and not json.loads(read_text(path))["timed_out"]
 

@@ -1,4 +1,4 @@
-"""The course of a sweep: its runs, and what they may take."""
+"""The course of a sweep: its runs, and the time that they can take."""
 
 import numpy as np
 
@@ -18,7 +18,7 @@ PARTED, CONSTANT = 1e-2, 1e-9  # shares of what a signal varies by, of its mean
 
 
 def common_overrides(scene):
-    """What every run of a sweep is given beside its settings, so that all store the same."""
+    """Overrides of every run of a sweep, so that all store the same."""
     until = scene.of("run.until")
     return [setting("output.every", until / PROFILES), setting("output.history_every", until / HISTORY_ROWS),
             setting("output.checkpoint_every", until)]
@@ -119,7 +119,7 @@ class Sweeper:
             row.measured.values["bed_height"] = TimeMean(height)
 
     def run(self, row, most=1.0):
-        """Runs an order that is not among the rows yet; returns its row. most: share of the budget that it may be expected to take"""
+        """Runs an order that is not among the rows yet; returns its row. most: share of the budget that it is allowed"""
         sweep = self.sweep
         known = sweep.find(row.order, row.kind)
         if known:

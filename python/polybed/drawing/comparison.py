@@ -1,4 +1,4 @@
-"""Two runs of one case beside each other, and comparison.html. The two-fluid model is drawn in full lines, the particles in broken ones, a
+"""Two runs of one case side by side, and comparison.html. The two-fluid model is drawn in full lines, the particles in broken ones, a
 species in its colour in both."""
 
 import shlex

@@ -120,7 +120,7 @@ def draw_bar(mesh, axes, group):
 
 
 def wrapped(groups, width):
-    """Groups one beside the other, in a new row where the widest row is full."""
+    """Groups side by side, in a new row where the widest row is full."""
     rows, filled = [[]], 0
     for group in groups:
         wide = len(group.maps) * (width + GAP) + GROUP_GAP

@@ -100,7 +100,7 @@ def speed_bar(axes, end, beyond):
 
 
 class Views:
-    """Two views, by species and by speed, whose particles can be exchanged for those of another step. axes: of both, above those of keys"""
+    """Two views, by species and by speed, whose particles can be exchanged for another step. axes: of both, above those of keys"""
 
     def __init__(self, run, steps, axes, keys, top):
         self.run, self.axes, self.drawn, self.figure, self.title = run, axes, [], axes[0].figure, None

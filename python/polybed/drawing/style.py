@@ -1,6 +1,6 @@
 """What all pictures share: colours, units, names, and the plane and the height that are shown.
 
-Colours of the species are those of Okabe and Ito (2008), which people with any kind of colour vision tell apart; maps
+Colours of the species after Okabe and Ito (2008), distinct for any kind of colour vision; maps
 of one sign are viridis and cividis, maps of two signs red and blue, of equal lightness on both sides.
 """
 
@@ -16,7 +16,7 @@ from polybed.quantities import LEVELS
 from polybed.folder import case_of, title_of_case
 
 COLOURS = ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9"]
-NAMES = {"tfm": "two-fluid", "dem": "particles"}  # of the models, beside each other
+NAMES = {"tfm": "two-fluid", "dem": "particles"}  # of the models, side by side
 LINES = ["-", "--", "-."]  # beyond six species the colours repeat with another line
 LEVEL_LINES = ["--", ":", "-.", (0, (5, 1, 1, 1, 1, 1))]  # of levels in the bed
 INTERFACE = "interface_m"  # between two species; three have more than one

@@ -43,7 +43,7 @@ def rms(values):
 
 def band_of(points, nets):
     """What a result has to allow for, as root mean squares of ln(n/data): of one size; of the factor that all sizes of a packing have in
-    common; of the ratio of two sizes beside each other in a packing, apart where one of them is fine. None without such points."""
+    common; of the ratio of two neighbouring sizes in a packing, apart where one of them is fine. None without such points."""
     one, common, ratio, fine = [], [], [], []
     for p, net in zip(points, nets):
         with np.errstate(divide="ignore"):  # ln 0, of a law that is 0 at voidage 1

@@ -37,7 +37,7 @@ def chart(run, kind, chosen):
         return None
     factor = panel.scale[0]
     finite = np.concatenate([line.x[np.isfinite(line.x)].ravel() for line in panel.lines] + [np.zeros(1)]) * factor
-    # what has fallen below an opening is counted with the lowest layer, whose voidage may then be below 0
+    # what has fallen below an opening is counted with the lowest layer, whose voidage can then be below 0
     low, high = (0.0, 1.0) if kind == "phi" else (min(0.0, float(finite.min())), max(float(finite.max()), 1e-12))
     lines = [looks_of(line) | {"x": None, "y": packed(levels(line.x * factor, low, high, np.uint16))} for line in panel.lines]
     return {"title": panel.label, "low": low, "high": high, "lines": lines}

@@ -23,7 +23,7 @@ from polybed.study.output import writes
 
 LOOPBACK = "127.0.0.1"
 RENEWED = 2.0  # s between two looks at the run
-SHARE = 0.1  # of the time, at most, that looking at the run may take
+SHARE = 0.1  # greatest share of the time for looking at the run
 LAST_LOOK = 5.0  # s that the server waits, after the end, for a browser to take the last state
 KNOWN = re.compile(r"(-1|[0-9]{1,9})?")  # version of the state that a page has, -1 of none
 TAIL = 64_000  # bytes of steps.csv that are read for what limits now

@@ -6,7 +6,7 @@ from polybed.folder import velocity_of
 from polybed.overrides import keys_of_case, toml
 from polybed.runner import answer_of, words_of
 
-FREE = ("tfm.", "dem.", "output.")  # tables that may differ between runs of one case
+FREE = ("tfm.", "dem.", "output.")  # tables that can differ between runs of one case
 
 
 class Case:

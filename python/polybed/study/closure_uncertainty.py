@@ -1,4 +1,4 @@
-"""The band of an answer by that of a drag law: what `--closure-uncertainty` of `polybed inversion` and of `polybed tfm` hands over to.
+"""The band of an answer from the band of a drag law: what `--closure-uncertainty` of `polybed inversion` and of `polybed tfm` hands over to.
 
 Its argument is a JSON object: what the command line says. The common factor and the ratio of the sizes are moved apart, each by the law's
 band, and the answer is found again, by force balance or by runs. The changes are added in squares, and compared with both moved at once."""

@@ -17,7 +17,7 @@ from polybed.study.scores import MODELS, add_inversion, compare, plain, table
 
 
 def record_of(directory, model):
-    """A run's record. Raises StudyError if it is none of this model's."""
+    """A run's record. Raises StudyError if another model made it."""
     path = Path(directory) / "run.json"
     if not path.exists():
         raise StudyError(FILE, f"{directory}: no run (it has no run.json)")
@@ -36,7 +36,7 @@ def refuse_difference(name, text, other_name, other):
 
 
 def refuse_before_running(options, case):
-    """Refuses what one of the models to be run cannot, before the other takes its hours, and a given run that is none of this case."""
+    """Refuses a case that one of the models cannot run, before the other takes its hours, and a given run of another case."""
     for model in MODELS:
         given = getattr(options, model)
         if given:

@@ -21,7 +21,7 @@ from polybed.study.output import draw, taken, write_record
 from polybed.runner import flags, has_checkpoint, ranks, run, words_of
 from polybed.study.stress_uncertainty import moved_table
 
-RAMP_SHARE = 0.02  # of a run, in which the velocity goes from that of the run before to its own: far from the window, the last quarter
+RAMP_SHARE = 0.02  # of a run, in which the velocity leaves that of the run before: far from the window, the last quarter
 SURFACES = ("hamaker_constant", "cohesion_gap", "asperity_radius")  # keys that a choice of cohesion sets
 DIGITS = 10  # of a hash in the name of a folder
 
@@ -83,7 +83,7 @@ def finished(directory):
 
 
 def measure(directory):
-    """What a finished run has measured, as in inversion.json, and its integrator. The interface is that of the mean profile."""
+    """What a finished run has measured, as in inversion.json, and its integrator. The interface is from the mean profile."""
     (begin, end, _), [run], _ = means_of(directory)
     b, height = (run.means.get(name) for name in ("centre_difference", "bed_height_m"))
     if b is None or height is None or b.error is None:
@@ -109,7 +109,7 @@ def choice_of(keys):
 
 
 def scan_of(request, table, model):
-    """The scan by a model; with the stress uncertainty those of the two-fluid model again, its table moved both ways."""
+    """The scan by a model; with the stress uncertainty two more by the two-fluid model, its table moved both ways."""
     digest = hash_of(read_bytes(table)) if table else ""
     scan = RunsOfModel(request, model, model, digest, request["overrides"]).scan()
     if request["stress_uncertainty"] and model == "tfm":

@@ -45,7 +45,7 @@ def centre_column(species):
 
 
 def within(time, values, window):
-    """The part of a series in the window, whose end may lie beyond all times."""
+    """The part of a series in the window, whose end can lie beyond all times."""
     slack = ROUNDING * min([window.end, *time[-1:]])
     return values[(time >= window.begin - slack) & (time <= window.end + slack)]
 

@@ -37,7 +37,7 @@ def measure(tfm, dem):
 
 
 def score(value=None, error=None, goal=None):
-    """How far apart the models are, and how far they may be; it is reached if the value itself, whatever its interval, is within the goal."""
+    """How far apart the models are, and how far they are allowed to be; it is reached if the value itself, whatever its interval, is within the goal."""
     return {"value": value, "error": error, "goal": goal, "reached": None if value is None or goal is None else abs(value) <= goal}
 
 

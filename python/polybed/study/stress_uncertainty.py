@@ -56,7 +56,7 @@ def band(name, unit, minus, table, plus):
 
 
 def run_case(request, case):
-    """The case as it is; the answer of the command is that of this run."""
+    """The case as it is, which answers for the command."""
     run("tfm", request["case"], *words_of(case.overrides), "-o", request["directory"], *([] if request["picture"] else ["--no-picture"]),
         *flags(request, "resume", "force", "permissive", "quiet", "json"), answers=True)
 

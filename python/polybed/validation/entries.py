@@ -63,7 +63,7 @@ class Entry:
 
 
 def folder():
-    """cases/validation of the sources, or that installed beside the program. Raises StudyError."""
+    """cases/validation of the sources, or installed with the program. Raises StudyError."""
     cases = cases_folder()
     if cases is None or not (cases / "validation").is_dir():
         raise StudyError(FILE, "there is no folder cases/validation beside the program: install polybed with its cases")

@@ -1,4 +1,4 @@
-"""Both sides of a comparison, a measured number and that of a run, each with its 95 % interval; and the verdict."""
+"""Both sides of a comparison, a measured number and the number of a run, each with its 95 % interval; and the verdict."""
 
 import math
 from typing import NamedTuple

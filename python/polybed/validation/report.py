@@ -9,7 +9,7 @@ from polybed.texts import markdown_table
 from polybed.validation.numbers import INSIDE, OUTSIDE, UNDECIDED
 
 HEAD = ("bed", "run", "model", "quantity", "measured", "of the model", "joint", "verdict", "CPU s")
-RECORDED = "recorded.json"  # numbers of models: beside the entries, never in them
+RECORDED = "recorded.json"  # numbers of models: next to the entries, never in them
 BEGIN, END = "<!-- polybed validate --record: begin -->", "<!-- polybed validate --record: end -->"
 NEGLIGIBLE = 1e-6  # of a value: an interval of a bed that stands still
 VERDICTS = (INSIDE, OUTSIDE, UNDECIDED)
@@ -81,7 +81,7 @@ def with_section(text, blocks):
 
 
 def write_recorded(folder, document, new):
-    """Adds results to the record beside the entries and renews the document. Returns the paths."""
+    """Adds results to the record next to the entries and renews the document. Returns the paths."""
     blocks = merged(read_recorded(folder), new)
     text = with_section(read_text(document), blocks)
     record = json.dumps({"filetype": "polybed validation", "version": 1, "blocks": blocks}, ensure_ascii=False, allow_nan=False, indent=1)
