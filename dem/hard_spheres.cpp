@@ -76,7 +76,7 @@ HardSpheres::HardSpheres(const std::vector<Particle>& all, const std::vector<Reg
     : box_(without_shear(box)), materials_(materials), images_(box_, 0, 0) {
   for (const Particle& p : all) particles_.add(p);
   particles_.owned = particles_.size();
-  order_ = NeighbourSearch(box_, materials_, 0).order(particles_);
+  order_ = NeighbourSearch(box_, materials_, 0, 0).order(particles_);
   for (std::size_t n = 0; n < all.size(); ++n) {
     const auto i = std::size_t(order_[n]);
     particles_.set(n, all[i]);
@@ -87,7 +87,7 @@ HardSpheres::HardSpheres(const std::vector<Particle>& all, const std::vector<Reg
 
 void HardSpheres::list(double reach) {
   for (Place& p : particles_.place) p.x = box_.wrapped(p.x);
-  NeighbourSearch(box_, materials_, reach).find_pairs(particles_, 0, {}, {true, true, true}, near_);
+  NeighbourSearch(box_, materials_, reach, 0).find_pairs(particles_, 0, {}, {true, true, true}, near_);
 }
 
 double HardSpheres::greatest_overlap() const {

@@ -15,15 +15,10 @@ namespace polybed::dem {
 
 namespace {
 
-/// Cost of each owned particle: itself and its contacts. \param own  Model::work_of_particle()
-std::vector<std::int32_t> work_of(const Particles& particles, const Contacts& pairs, const Contacts& walls,
-                                  std::int32_t own) {
-  std::vector<std::int32_t> work(particles.owned, own);
-  for (const std::int32_t p : pairs.touching)
-    for (const std::int32_t i : {pairs.pairs[std::size_t(p)].first, pairs.pairs[std::size_t(p)].second})
-      if (std::size_t(i) < particles.owned) ++work[std::size_t(i)];
-  for (const std::int32_t p : walls.touching) ++work[std::size_t(walls.pairs[std::size_t(p)].first)];
-  return work;
+/// Only where each particle meets the same walls wherever it goes, and images rest.
+std::optional<Company> company_of(const Box& box, const Materials& materials, double reach) {
+  if (!box.plates.empty() || !box.openings.empty() || box.shear_rate != 0) return {};
+  return Company(box, materials.greatest_diameter(), reach);
 }
 
 const core::Scene& fitting(const core::Scene& scene) {
@@ -50,8 +45,9 @@ Model::Model(const core::Scene& scene, core::Timers& timers, std::shared_ptr<con
       torque_unit_(torque_unit(force_unit_, materials_)),
       held_(scene.bed.held),
       skin_(skin_of(scene, materials_)),
+      company_(company_of(box_, materials_, thickest_skin * skin_ + laws_.reach())),
       verlet_(limits_.synchronised, limits_.dt, gravity_, force_unit_, torque_unit_, box_.shear_rate),
-      search_(box_, materials_, skin_ + laws_.reach()),
+      search_(box_, materials_, skin_ + laws_.reach(), (company_ ? company_->far() : skin_) + laws_.reach()),
       pair_forces_(box_, materials_, laws_, force_unit_, torque_unit_, scene.dem.max_overlap),
       exchange_(box_, ranks_, skin_ + laws_.reach(), 0.5 * materials_.greatest_diameter()) {
   pairs_.memory_size = walls_.memory_size = laws_.memory_size() + (scene.dem.ledger ? Ledger::memory_size(laws_) : 0);
@@ -142,9 +138,11 @@ void Model::place(const std::vector<Particle>& all, const std::vector<std::int32
 /// One step of the scheme T(2.11)-(2.13), and of the fluid when it is due.
 void Model::step(double stop) {
   if (ahead_ == Ahead::trouble) stop_in_trouble();
+  if (ahead_ == Ahead::stale && keeps_list()) look_ahead();
   if (ahead_ == Ahead::stale || ahead_ == Ahead::fast) {
     const auto scope = timers_.scope("neighbours");
     const bool fast = ahead_ == Ahead::fast;
+    if (!fast) suit_skin();
     rebuild();
     if (fast) shorten_step();
   }
@@ -242,13 +240,6 @@ void Model::look_ahead(const std::optional<Verlet::Drift>& known) {
   ahead_ = Ahead(int(core::greatest_of_ranks(ranks_.get(), double(here))));
 }
 
-/// Whether the next step moves an owned particle too far for the list. \param since  age of the list after that step, s
-bool Model::list_goes_stale(double drift, double since) const {
-  // Two particles can approach from both sides, and a sheared box moves one faster than the other.
-  const double flow = std::abs(box_.shear_rate) * since * (materials_.greatest_diameter() + skin_ + laws_.reach());
-  return !(2 * drift + flow <= skin_);
-}
-
 /// No if the case gives the step length, or if a quantity depends on it, as the strain of a sheared box does.
 bool Model::may_shorten() const {
   if (scene_.dem.fixed_step || box_.shear_rate != 0 || held_) return false;
@@ -273,72 +264,9 @@ void Model::set_step_for(double began, std::int64_t began_at, double speed) {
   if (coupling_) coupling_->set_dt(particles_, limits_.dt);
 }
 
-void Model::wrap() {
-  for (std::size_t i = 0; i < particles_.owned; ++i) {
-    Vector& x = particles_.place[i].x;
-    Motion& m = particles_.motion[i];
-    const Vector from = x;
-    const double speed = m.v[0];
-    if (box_.periodic[1] && (x[1] < 0 || x[1] >= box_.size[1])) {
-      const double boxes = std::floor(x[1] / box_.size[1]);
-      x[0] -= boxes * box_.image_shift(clock());
-      m.v[0] -= boxes * box_.image_speed();
-    }
-    x = box_.wrapped(x);
-    double gained = 0.5 * (m.v[0] - speed) * (m.v[0] + speed);
-    for (std::size_t k = 0; k < 3; ++k) gained -= gravity_[k] * (x[k] - from[k]);
-    if (joined_work_) joined_work_->wrapped(gained / m.inverse_mass);
-  }
-}
-
 void Model::refresh_ghosts() {
   exchange_.send_ghosts(particles_);
   exchange_.receive_ghosts(particles_);
-}
-
-void Model::restart() {
-  rebuild();
-  if (coupling_) coupling_->restart();
-}
-
-void Model::rebuild() {
-  KeptContacts kept(pairs_.memory_size);
-  kept.add(pairs_, particles_, false);
-  kept.add(walls_, particles_, true);
-  if (outflow_) count_ -= outflow_->count_leaving(*this);
-  wrap();
-  exchange_.balance(particles_, work_of(particles_, pairs_, walls_, work_of_particle()));
-  if (outflow_) take_out();
-  list_pairs(std::move(kept));
-}
-
-/// Removes this rank's particles that have left.
-void Model::take_out() {
-  if (coupling_) coupling_->let_go(*outflow_, particles_);
-  outflow_->take_out(particles_);
-}
-
-/// Moves particles to their owners and rebuilds the list of pairs; contacts move with their particles.
-void Model::list_pairs(KeptContacts kept) {
-  std::vector<double>().swap(pairs_.memory);  // frees memory for the rebuild
-  particles_.resize(particles_.owned);
-  if (coupling_) coupling_->send_ahead(exchange_, particles_);
-  exchange_.migrate(particles_, kept);
-  if (feeding_) feeding_->enter(particles_, ranks_ ? &exchange_.decomposition() : nullptr, ranks_ ? ranks_->rank() : 0);
-  particles_.arrange(search_.order(particles_));
-  if (coupling_) coupling_->settle_in(particles_);
-  exchange_.choose_ghosts(particles_);
-  search_.find_pairs(particles_, clock(), exchange_.decomposition().centre(),
-                     exchange_.decomposition().whole(materials_.greatest_diameter() + skin_ + laws_.reach()), pairs_);
-  search_.find_walls(particles_, walls_.pairs);
-  const KeptById memories(kept);
-  memories.recall(pairs_, particles_, false);
-  memories.recall(walls_, particles_, true);
-  verlet_.mark(particles_);
-  marked_at_ = steps_;
-  ahead_ = Ahead::clear;
-  ++work_.rebuilds;
-  work_.candidates += search_.candidates();
 }
 
 /// Computes forces that need no ghost while the ghosts are in transit.

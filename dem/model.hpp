@@ -11,6 +11,7 @@
 #include "core/output/checkpoint.hpp"
 #include "core/timers.hpp"
 #include "dem/box.hpp"
+#include "dem/contacts/company.hpp"
 #include "dem/contacts/contacts.hpp"
 #include "dem/contacts/materials.hpp"
 #include "dem/contacts/neighbours.hpp"
@@ -153,6 +154,9 @@ class Model : public core::Simulation {
   /// From the last list to the end of the next drift, s.
   [[nodiscard]] double time_of_next() const { return double(steps_ + 1 - marked_at_) * limits_.dt; }
   [[nodiscard]] bool list_goes_stale(double drift, double since) const;
+  bool keeps_list();
+  void suit_skin();
+  void set_skin(double skin);
   [[nodiscard]] bool may_shorten() const;
   void shorten_step();
   void set_step_for(double began, std::int64_t began_at, double speed);
@@ -188,8 +192,11 @@ class Model : public core::Simulation {
   std::unique_ptr<Coupling> coupling_;   ///< with the fluid
   std::vector<KeptPart*> kept_;          ///< the existing parts among those above
   Around around_;
-  bool held_;  ///< the particles do not move
-  double skin_;
+  bool held_;                                 ///< the particles do not move
+  static constexpr double thickest_skin = 5;  ///< of that at the start
+  double skin_;                               ///< of the present list, m
+  std::optional<Company> company_;            ///< absent: the list ends with the farthest particle
+  double free_ = 0;                           ///< displacement since the mark that the list allows, m
   Verlet verlet_;
   NeighbourSearch search_;
   PairForces pair_forces_;

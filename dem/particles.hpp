@@ -12,7 +12,7 @@ namespace polybed::dem {
 using Vector = std::array<double, 3>;
 
 struct alignas(32) Place {
-  Vector x;       ///< centre, m; along periodic directions within the box, up to the skin
+  Vector x;       ///< centre, m; along periodic directions within the box when the pairs were listed
   double radius;  ///< m
 };
 

@@ -112,7 +112,8 @@ Table dem_table() {
           key(&Dem::rolling_damping, "rolling_damping", range(0, 10),
               help("of the rolling spring, over its critical damping")),
           key(&Dem::skin, "skin", dimension::length, above(0, 1),
-              help("of the list of neighbours; default: a tenth of the smallest diameter")),
+              help("of the list of neighbours; default: a tenth of the smallest diameter, up to half of it in fast "
+                   "beds")),
           key(&Dem::max_overlap, "max_overlap", above(0, 1),
               help("over the diameter of the smaller particle; above it the run stops")),
           key(&Dem::fixed_step, "fixed_step", dimension::time, above(0, 1e3),

@@ -62,6 +62,12 @@ void add_over_ranks(const Ranks* ranks, std::span<std::int64_t> values) {
             "MPI_Allreduce");
 }
 
+void greatest_over_ranks(const Ranks* ranks, std::span<double> values) {
+  if (ranks == nullptr) return;
+  check_mpi(MPI_Allreduce(MPI_IN_PLACE, values.data(), int(values.size()), MPI_DOUBLE, MPI_MAX, communicator(ranks)),
+            "MPI_Allreduce");
+}
+
 double greatest_of_ranks(const Ranks* ranks, double value) {
   double greatest = value;
   if (ranks != nullptr)

@@ -43,6 +43,8 @@ class Ranks {
 /// Sums entry by entry, in place.
 void add_over_ranks(const Ranks* ranks, std::span<std::int64_t> values);
 void add_over_ranks(const Ranks* ranks, std::span<double> values);
+/// Likewise the greatest of each entry.
+void greatest_over_ranks(const Ranks* ranks, std::span<double> values);
 void add_over_ranks(const Grid& grid, std::span<double> values);
 /// Whether a condition is true on every rank.
 [[nodiscard]] bool on_all_ranks(const Grid& grid, bool holds);

@@ -56,21 +56,28 @@ int NeighbourSearch::Level::place(double x, std::size_t axis) const {
   return ((c % n) + n) % n;
 }
 
-NeighbourSearch::NeighbourSearch(const Box& box, const Materials& materials, double reach)
-    : box_(box), materials_(materials), reach_(reach) {
+NeighbourSearch::NeighbourSearch(const Box& box, const Materials& materials, double reach, double wall_reach)
+    : box_(box), materials_(materials) {
+  for (std::size_t k = 0; k < 3; ++k)
+    if (box.periodic[k]) {
+      narrowest_ = std::min(narrowest_, box.size[k]);
+      period_[k] = box.size[k];
+    }
+  set_reach(reach, wall_reach);
+}
+
+void NeighbourSearch::set_reach(double reach, double wall_reach) {
+  reach_ = reach;
+  wall_reach_ = wall_reach;
+  levels_.clear();
   std::vector<double> diameters;
-  for (const Species& species : materials.species()) diameters.push_back(2 * species.radius);
+  for (const Species& species : materials_.species()) diameters.push_back(2 * species.radius);
   std::sort(diameters.begin(), diameters.end());
   // From the largest downwards: another level pays if its cells have less than half the volume.
   constexpr double worth_a_level = 1.25;
   for (auto d = diameters.rbegin(); d != diameters.rend(); ++d)
     if (levels_.empty() || worth_a_level * (*d + reach) < levels_.back().cell) levels_.emplace_back().cell = *d + reach;
   std::reverse(levels_.begin(), levels_.end());
-  for (std::size_t k = 0; k < 3; ++k)
-    if (box.periodic[k]) {
-      narrowest_ = std::min(narrowest_, box.size[k]);
-      period_[k] = box.size[k];
-    }
 }
 
 std::size_t NeighbourSearch::level_of(double radius) const {
@@ -124,7 +131,8 @@ void NeighbourSearch::sort_in(const Particles& particles) {
     Level& level = levels_[l];
     const auto cells = std::size_t(level.count[0]) * std::size_t(level.count[1]) * std::size_t(level.count[2]);
     level.start.assign(cells + 1, 0);
-    std::vector<std::int32_t> at(particles.size(), -1);
+    level.next.assign(particles.size(), -1);
+    std::vector<std::int32_t>& at = level.next;
     for (std::size_t i = 0; i < particles.size(); ++i) {
       if (level_of(particles.place[i].radius) != l) continue;
       const Vector& x = near_[i];
@@ -140,12 +148,13 @@ void NeighbourSearch::sort_in(const Particles& particles) {
       const auto m = std::size_t(next[std::size_t(at[i])]++);
       level.member[m] = std::int32_t(i);
       level.place_of_member[m] = particles.place[i];
+      at[i] = std::int32_t(m) + 1;
     }
   }
 }
 
 /// Pairs of particle i with a level: all on coarser levels, each once on its own: those in half of the surrounding
-/// cells, and those with a higher number in its cell; by the ids if cells are so few that one lies on both sides.
+/// cells, and those behind it in its cell; by the ids if cells are so few that one lies on both sides.
 void NeighbourSearch::search(const Particles& particles, std::size_t i, std::size_t l, const Images& images,
                              std::vector<Contacts::Pair>& pairs) {
   const Level& level = levels_[l];
@@ -164,23 +173,30 @@ void NeighbourSearch::search(const Particles& particles, std::size_t i, std::siz
         unsheared || boxes == 0
             ? beside
             : around(level.place(x[0] - boxes * images.shift[Images::here + 3][0], 0), level.count[0], level.wraps[0]);
-    for (int k = 0; k < depth.count; ++k)
-      for (int n = 0; n < width.count; ++n) {
-        const int oz = depth.offset[std::size_t(k)], ox = width.offset[std::size_t(n)];
-        if (half && (oz < 0 || (oz == 0 && (oy < 0 || (oy == 0 && ox < 0))))) continue;
-        const bool same = oz == 0 && oy == 0 && ox == 0;
-        const auto cell = std::size_t((depth.cell[std::size_t(k)] * level.count[1] + cy) * level.count[0] +
-                                      width.cell[std::size_t(n)]);
-        const std::int32_t begin = level.start[cell], end = level.start[cell + 1];
+    for (int k = 0; k < depth.count; ++k) {
+      const int oz = depth.offset[std::size_t(k)];
+      if (half && (oz < 0 || (oz == 0 && oy < 0))) continue;
+      const bool same = oz == 0 && oy == 0;
+      const int first = (depth.cell[std::size_t(k)] * level.count[1] + cy) * level.count[0];
+      // The members of cells in a row follow each other.
+      for (int n = 0, last = 0; n < width.count; n = last + 1) {
+        for (last = n;
+             last + 1 < width.count && width.cell[std::size_t(last) + 1] == width.cell[std::size_t(last)] + 1;)
+          ++last;
+        if (half && same && width.offset[std::size_t(last)] < 0) continue;
+        std::int32_t begin = level.start[std::size_t(first + width.cell[std::size_t(n)])];
+        const std::int32_t end = level.start[std::size_t(first + width.cell[std::size_t(last)]) + 1];
+        if (half && same && width.offset[std::size_t(n)] <= 0) begin = level.next[i];
         candidates_ += std::uint64_t(end - begin);
         for (std::int32_t m = begin; m < end; ++m) {
           const Place& there = level.place_of_member[std::size_t(m)];
           if (unsheared && !may_be_near(particles.place[i], there)) continue;
           const auto j = std::size_t(level.member[std::size_t(m)]);
-          if (half ? same && j <= i : own && particles.id[j] <= particles.id[i]) continue;
+          if (!half && own && particles.id[j] <= particles.id[i]) continue;
           add_if_near(particles, i, j, there, images, pairs);
         }
       }
+    }
   }
 }
 
@@ -224,6 +240,7 @@ void NeighbourSearch::release() {
   for (Level& level : levels_) {
     std::vector<std::int32_t>().swap(level.start);
     std::vector<std::int32_t>().swap(level.member);
+    std::vector<std::int32_t>().swap(level.next);
     std::vector<Place>().swap(level.place_of_member);
   }
 }
@@ -269,7 +286,7 @@ void NeighbourSearch::find_walls(const Particles& particles, std::vector<Contact
         away = std::sqrt(d[0] * d[0] + d[1] * d[1]);
         curve = plate.curve_at(x);
       }
-      if (away < particles.place[i].radius + reach_)
+      if (away < particles.place[i].radius + wall_reach_)
         pairs.push_back(
             {std::int32_t(i), std::int32_t(w), Images::here, materials_.wall_kind(particles.species[i], curve)});
     }

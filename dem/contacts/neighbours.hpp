@@ -15,8 +15,11 @@ namespace polybed::dem {
 
 class NeighbourSearch {
  public:
+  /// \param reach, wall_reach  as in set_reach
+  NeighbourSearch(const Box& box, const Materials& materials, double reach, double wall_reach);
   /// \param reach  skin plus range of the longest pair effect, m: nearer pairs are listed
-  NeighbourSearch(const Box& box, const Materials& materials, double reach);
+  /// \param wall_reach  the same for walls
+  void set_reach(double reach, double wall_reach);
 
   /// Pairs with at least one owned particle whose surfaces are within the reach; the first has the lower id. Pairs that
   /// need no ghost come first. In a box less than twice that distance across, a pair can be listed with several images
@@ -41,6 +44,7 @@ class NeighbourSearch {
     std::array<int, 3> count{};
     std::array<bool, 3> wraps{};
     std::vector<std::int32_t> start, member;
+    std::vector<std::int32_t> next;      ///< of each particle: the member behind it
     std::vector<Place> place_of_member;  ///< contiguous, as cells are read
 
     [[nodiscard]] int place(double x, std::size_t axis) const;
@@ -64,7 +68,7 @@ class NeighbourSearch {
 
   const Box& box_;
   const Materials& materials_;
-  double reach_;
+  double reach_ = 0, wall_reach_ = 0;
   static constexpr double far_away = std::numeric_limits<double>::infinity();
   double narrowest_ = far_away;                  ///< extent of the box where it is joined, m
   Vector period_{far_away, far_away, far_away};  ///< m

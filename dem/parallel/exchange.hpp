@@ -33,6 +33,8 @@ class Exchange {
   void send_ahead(const Particles& particles, std::vector<KeptLoad>& kept);
   /// Likewise; does nothing without data.
   void send_ahead(const Particles& particles, KeptRows& kept);
+  /// \param reach  as in the constructor, from the next choice of ghosts on
+  void set_reach(double reach) { reach_ = reach; }
   /// Sends copies of particles to ranks whose parts they are near, and adds those received as ghosts.
   void choose_ghosts(Particles& particles);
   /// Starts to send the ghosts' present places and motions to other ranks. Until receive_ghosts() the owned particles

@@ -292,7 +292,7 @@ TEST(Exchange, NoPairIsMissed) {
       Particles particles = own_particles(box, parts, 1, 4);
       exchange.choose_ghosts(particles);
       const Materials materials(two_sizes());
-      NeighbourSearch search(box, materials, reach);
+      NeighbourSearch search(box, materials, reach, reach);
       Contacts contacts;
       search.find_pairs(particles, 0, parts.centre(), parts.whole(least + reach), contacts);
       std::multiset<std::pair<std::int64_t, std::int64_t>> found;

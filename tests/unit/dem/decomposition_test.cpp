@@ -66,7 +66,7 @@ TEST(OneRank, HasNoGhostsAndEveryPairIsInner) {
   scene.species[0].diameter = 0.1;
   scene.species[0].density = 1000;
   const Materials materials(scene);
-  NeighbourSearch search(box, materials, 0.01);
+  NeighbourSearch search(box, materials, 0.01, 0.01);
   Contacts contacts;
   search.find_pairs(particles, 0, exchange.decomposition().centre(), exchange.decomposition().whole(0.11), contacts);
   ASSERT_EQ(contacts.pairs.size(), 1);
