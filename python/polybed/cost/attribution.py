@@ -70,6 +70,15 @@ def of_statistics(sweeper):
     return Share(row, value, "95 % interval of one window")
 
 
+def of_input(row, given, ranking, distance):
+    """The change by a datum, of a height by the centre of all solids, which a uniform bed raises in proportion: slabs show a small step of its
+    sharp top as half to twice as large."""
+    a, b = row.measured.centre, given.measured.centre
+    if ranking != "bed_height" or not (distance is not None and a and b):
+        return Share(row.note, distance)
+    return Share(row.note, abs(a / b - 1), "by the centre of the solids: slabs do not resolve a small step of the top")
+
+
 def attribute(sweeper):
     """Always six rows; the inputs below them."""
     sweep = sweeper.sweep
@@ -79,7 +88,7 @@ def attribute(sweeper):
         if row.kind == SOLVER and distance is not None:
             solver = Share(solver.row, distance, row.note)
         if row.kind == INPUT:
-            sweep.inputs.append(Share(row.note, distance))
+            sweep.inputs.append(of_input(row, sweeper.centre_row, sweep.ranking, distance))
     sweep.attribution = [of_line(sweeper, "time integration", ("rtol", "steps")), of_line(sweeper, "space", ("grid",)), solver,
                          of_statistics(sweeper), of_models(sweeper, "closure spread", ("drag", "effects", "stiffness")),
                          of_models(sweeper, "level", ("level",))]

@@ -21,7 +21,8 @@ def line_error(sweeper, name, level):
     if name == "grid":
         found = row.quantities.get(sweep.ranking)
         return inf if found is None else found.error
-    tightest = next((r for r in sweep.rows if r.kind == REFERENCE and r.done and not sweep.chaotic), None)
+    tightest = sweep.find(sweeper.tight(), REFERENCE)
+    tightest = tightest if tightest and tightest.done and not sweep.chaotic else None
     for finest in reversed(range(len(sweep.axis(name).levels))):
         tightest = tightest or sweeper.row_on_line(name, finest)
     distance = distance_of(sweep, row, tightest)
