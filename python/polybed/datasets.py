@@ -1,7 +1,4 @@
-"""Fields and profiles as datasets of xarray, with names and units.
-
-Nothing but names and shapes is read before values are asked for; one stored time of one field is the least that is read.
-"""
+"""Fields and profiles as datasets of xarray, with names and units, each stored time read when its values are asked for."""
 
 from __future__ import annotations
 

@@ -1,5 +1,6 @@
-"""How every command of this package ends: the exit codes of polybed, and what is wrong in a message on standard error."""
+"""Command lines: options that several commands take, exit codes, and messages on standard error."""
 
+import argparse
 import os
 import sys
 from contextlib import suppress
@@ -7,8 +8,6 @@ from contextlib import suppress
 from polybed.errors import ProgramError, StudyError
 from polybed.files import FAULTS
 from polybed.packages import DONE, FILE, MPI, NUMBERS, STOPPED, WRONG_CASE
-
-__all__ = ["DONE", "FILE", "MPI", "NUMBERS", "STOPPED", "WRONG_CASE", "StudyError", "answer", "guarded", "made"]
 
 
 def answer(text):
@@ -54,3 +53,31 @@ def made(paths):
         answer("\n".join(map(str, paths())))
         return DONE
     return guarded(work)
+
+
+# Options by name: as argparse takes them.
+ALIKE = {"case": {"metavar": "CASE", "help": "the case file"},
+         "--set": {"action": "append", "default": [], "metavar": "KEY=VALUE", "help": "in place of what the file says"},
+         "--until": {"metavar": "TIME", "help": 'simulated time, e.g. "20 s"'},
+         "--quiet": {"action": "store_true", "help": "no progress"},
+         "--json": {"action": "store_true", "help": "one JSON object on standard output, nothing else there"},
+         "--no-picture": {"dest": "picture", "action": "store_false", "help": "no pictures and pages at the end"}}
+
+
+def parser_of(command, description, *alike):
+    """The parser of a command with some of these options."""
+    parser = argparse.ArgumentParser(prog=f"polybed {command}", allow_abbrev=False, description=description)
+    for name in alike:
+        parser.add_argument(name, **ALIKE[name])
+    return parser
+
+
+def whole(low, high):
+    """What reads a whole number in a range."""
+    def read(text):
+        number = int(text)
+        if not low <= number <= high:
+            raise argparse.ArgumentTypeError(f"{number} is not in range {low} to {high}")
+        return number
+    read.__name__ = "whole number"
+    return read

@@ -1,5 +1,4 @@
-"""Files as they are opened: only regular ones, and of those of polybed kind and version are checked; a damaged one is named in one line.
-Nothing else in this package opens a file to read."""
+"""Opens files to read, here alone: regular ones, of polybed's of the right kind and version; a damaged one is named in one line."""
 
 import contextlib
 import csv
@@ -26,19 +25,19 @@ class FormatError(PlainError):
 
 
 class DamagedError(FormatError):
-    """A file does not hold what a file of its kind holds."""
+    """A file lacks what a file of its kind contains."""
 
     def __init__(self, path, what):
         super().__init__(f"{path} is damaged: {' '.join(str(what).split())}; make it again with polybed, or restore it from a copy")
 
 
 class ReplacedError(PlainError):
-    """A folder holds another run than the one that was opened."""
+    """A folder contains another run than the one that was opened."""
 
 
 # What a command tells in one line.
 FAULTS = (FormatError, ReplacedError, UnknownNameError, OSError)
-# What taking apart something that does not hold what it should may raise.
+# What reading contents that are not as they should be can raise.
 MISFITS = (KeyError, IndexError, TypeError, ValueError, AttributeError, ArithmeticError, MemoryError, RecursionError, RuntimeError)
 
 
@@ -67,7 +66,7 @@ def check_kind(attributes, filetype, path):
 
 
 def opened(path):
-    """A file to read its bytes. Raises FileNotFoundError, or FormatError for a folder, a pipe or a device, which may never answer."""
+    """A file to read its bytes. Raises FileNotFoundError, or FormatError for a folder, a pipe or a device, which can block for ever."""
     try:
         number = os.open(path, os.O_RDONLY | os.O_NONBLOCK | os.O_CLOEXEC)
     except FileNotFoundError as error:
@@ -91,7 +90,7 @@ def read_bytes(path):
 
 
 def whole_lines(path):
-    """The lines of a text file that end, without their ends: what follows the last end may be cut short."""
+    """The lines of a text file that end, without their ends: what follows the last end can be cut short."""
     return read_text(path).split("\n")[:-1]
 
 
@@ -109,7 +108,7 @@ def finite(text):
 
 
 def read_json(path: str | os.PathLike[str], filetype: str) -> dict[str, Any]:
-    """What a JSON file holds, a dictionary, if the file is what it should be."""
+    """The contents of a JSON file, a dictionary, if the file is what it should be."""
     with contents_of(path):
         found = json.loads(read_text(path))
         if not isinstance(found, dict):
@@ -119,8 +118,7 @@ def read_json(path: str | os.PathLike[str], filetype: str) -> dict[str, Any]:
 
 
 class Group(Mapping):
-    """A group of an HDF5 file by the names of what it contains. Links to other places and numbers in other files raise ValueError: HDF5
-    follows them to any file that the user may read."""
+    """A group of an HDF5 file. Links and external numbers raise ValueError: HDF5 follows them to any file that the user can read."""
 
     def __init__(self, group):
         self._group, self.attrs = group, group.attrs
@@ -186,11 +184,8 @@ def rising(values, name):
 
 @contextlib.contextmanager
 def in_place(path, ending=".temporary"):
-    """The path to write under a temporary name in the same folder, `path.name + ending`; if all went well it is flushed to the disk and
-    renamed.
-
-    The temporary file is new: a link that has its name, in a folder that others may write, is removed and not followed.
-    """
+    """The path to write under a temporary name in the same folder, which is then flushed to the disk and renamed. It is new: a link that has
+    its name, in a folder that others can write, is removed and not followed."""
     temporary = path.with_name(path.name + ending)
     temporary.unlink(missing_ok=True)
     os.close(os.open(temporary, os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_NOFOLLOW, 0o666))

@@ -1,11 +1,11 @@
-"""The folder of a run, which may be replaced by another run while somebody reads it, and what its run.json says of the case."""
+"""The folder of a run, which another run can replace while it is read, and what its run.json says of the case."""
 
 import tomllib
 from pathlib import Path
 
 from polybed.files import DamagedError, ReplacedError, contents_of, read_json
 
-# Any of them makes a run directory; an empty one is that of a run that starts.
+# Any of them makes a run directory; an empty one belongs to a run that starts.
 CONTENTS = {".polybed", "run.json", "history.csv", "fields.h5", "profiles.h5", "particles.h5"}
 
 
@@ -15,7 +15,7 @@ def runs_in(folder):
 
 
 class RunFolder:
-    """A run directory that hands out the paths of its files as long as it holds the run that it held when it was opened: the one
+    """A run directory that hands out the paths of its files as long as it contains the run that was opened: the one
     of the model and of the resolved case, by its hash, that run.json names."""
 
     def __init__(self, directory):
@@ -49,7 +49,7 @@ class RunFolder:
 
 
 def read_record(path):
-    """What a run.json holds, with what every record has: model, state and hash of the case as texts, and what each invariant came to."""
+    """The contents of run.json, which always has model, state and hash of the case as texts, and what each invariant came to."""
     record = read_json(path, "polybed run")
     with contents_of(path):
         for key in ("model", "state", "case_hash"):

@@ -15,8 +15,7 @@ PACKAGE = Path(__file__).resolve().parent
 
 
 class MatplotlibFromPackage:
-    """Finds matplotlib, when it is first imported, so that it is run in this folder: it reads a matplotlibrc of the working directory, and
-    that may name programs to run."""
+    """Imports matplotlib in this folder: it reads a matplotlibrc of the working directory, which can name programs to run."""
 
     @classmethod
     def find_spec(cls, name, path=None, target=None):
@@ -43,7 +42,7 @@ if __name__ == "__main__":
     module, sys.argv = sys.argv[1], ["-m", *sys.argv[2:]]  # as Python's own -m leaves it while it imports the package
     sys.path.insert(0, str(PACKAGE.parent))
     sys.meta_path.insert(0, MatplotlibFromPackage)
-    os.environ["MPLBACKEND"] = "Agg"  # a notebook exports one that this interpreter may not have
+    os.environ["MPLBACKEND"] = "Agg"  # a notebook exports one that this interpreter can lack
     from polybed.packages import needed
     with needed(True):
         main = importlib.import_module(module).main

@@ -1,5 +1,4 @@
-"""What every program of this package begins with: it says which packages of the system are missing, and prints nothing that acts on a
-terminal. Needs none itself."""
+"""What each program of this package begins with: names missing packages and prints nothing that acts on a terminal. Needs none."""
 
 import contextlib
 import re
@@ -10,17 +9,15 @@ CONTROL = re.compile("[\0-\x08\x0b-\x1f\x7f-\x9f\u202a-\u202e\u2066-\u2069]")
 
 
 def plain(text):
-    """A text as a terminal may get it: control characters, but for line ends and tabs, and marks that turn the direction of writing are
+    """A text fit for a terminal: control characters, except line ends and tabs, and marks that turn the direction of writing are
     shown by their escapes, as core/print.hpp has it. Titles, names and keys of a file act on no terminal."""
     return CONTROL.sub(lambda found: f"\\u{ord(found[0]):04x}", text)
 
 
 @contextlib.contextmanager
 def needed(of_program):
-    """Around imports: tells in a line which package the interpreter lacks, and what to do.
-
-    of_program: whether the imports are those of `python3 -m polybed.MODULE`, which ends there; else ImportError is raised.
-    """
+    """Around imports: names a package that the interpreter lacks, and what to do. of_program: of `python3 -m polybed.MODULE`, which ends
+    there; else ImportError is raised."""
     for stream in (sys.stdout, sys.stderr) if of_program else ():  # all is plain that this process prints from now on
         if stream is not None and "write" not in vars(stream):
             stream.write = lambda text, write=stream.write: write(plain(text))

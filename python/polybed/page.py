@@ -1,6 +1,6 @@
 """What all pages share: looks, tables, escaped text and pictures, in one HTML file that needs no other.
 
-Text becomes HTML in one way: what is no Html yet is escaped where it enters a page, so that nothing that a file says is read as HTML. And a
+Text becomes HTML in one way: text that is not Html is escaped where it enters a page, so that nothing from a file is read as HTML. And a
 page names its scripts by their hashes: a browser runs no other, nor a handler in an element, and loads nothing.
 """
 
@@ -92,8 +92,7 @@ def allowed(texts):
 
 
 def page(title, under, body, scripts=(), follows=False):
-    """The whole file. under: the line below the title; scripts: texts, which run in their order at the end; follows: the page asks the
-    server that it comes from for more."""
+    """The whole file. under: the line below the title; scripts: texts, run in order at the end; follows: the page asks its server for more."""
     asked = "'self'" if follows else "'none'"
     policy = (f"default-src 'none'; base-uri 'none'; form-action 'none'; img-src data:; style-src {allowed([LOOKS])}; "
               f"script-src {allowed(scripts)}; connect-src {asked}")

@@ -13,8 +13,7 @@ def nearest(times, time):
 
 
 def step_shown(count):
-    """Number of the step that a picture shows, by how many particles each has: the last, but of a hopper that has run empty the last
-    with half of them."""
+    """Number of the step in a picture, by the counts of particles: the last, or of a hopper that ran empty the last with half of them."""
     return int(np.flatnonzero(2 * count >= count.max())[-1]) if count[-1] < EMPTIED * count.max() else len(count) - 1
 
 

@@ -1,7 +1,4 @@
-"""Draws a finished or a running run: what `polybed plot` and the end of `polybed tfm` hand over to.
-
-In place of RUN stands the folder of a study, which is drawn as at its end.
-"""
+"""Draws a run, or in its place the folder of a study as at its end: what `polybed plot` and the end of a run hand over to."""
 
 import argparse
 import importlib
@@ -16,7 +13,7 @@ from polybed.progress import Bar
 with needed(False):
     import matplotlib.pyplot as plt
 
-    from polybed.drawing import animation, fields, history, overview, particles, profiles
+    from polybed.drawing import animation, history, maps, overview, particles, profiles
     from polybed.drawing.style import STYLE
     from polybed.ending import WRONG_CASE, StudyError, made
     from polybed.files import FAULTS, contents_of, in_place, put_text, read_json
@@ -29,8 +26,8 @@ STUDIES = {"comparison.json": ("polybed comparison", (), "polybed.drawing.compar
            "inversion.json": ("polybed inversion", ("png",), "polybed.drawing.inversion_scan"),
            "cost.json": ("polybed cost", ("png", "svg"), "polybed.drawing.cost"),
            "stability.json": ("polybed stability", ("png", "svg"), "polybed.drawing.hard_cases"),
-           "closure_uncertainty.json": ("polybed closure uncertainty", ("png",), "polybed.drawing.closure_uncertainty"),
-           "fit.json": ("polybed drag fit", ("png",), "polybed.drawing.fit")}
+           "closure_uncertainty.json": ("polybed closure uncertainty", ("png",), "polybed.drawing.drag_law"),
+           "fit.json": ("polybed drag fit", ("png",), "polybed.drawing.drag_law")}
 WHAT = ("overview", "fields", "particles", "profiles", "history", "animation")
 
 
@@ -45,8 +42,7 @@ def save(figure, path):
 
 
 def study_drawn(path, out=None):
-    """Draws the record of a study, in its folder or another one, and puts its page beside the record unless the pictures are to lie
-    elsewhere. Returns the paths."""
+    """Draws the record of a study in its folder or another; its page goes beside the record, if pictures do. Returns the paths."""
     filetype, endings, module = STUDIES[path.name]
     study, found, folder = importlib.import_module(module), read_json(path, filetype), Path(out or path.parent)
     if endings:
@@ -93,14 +89,14 @@ def draw_one(run, what, time, folder, ending, rate=None, progress=None):
         raise StudyError(WRONG_CASE, f"--what {what}: {run.directory} holds no {what}; there are {', '.join(kinds_of(run))}")
     if what == "animation":
         return animation.film(run, folder / ("animation.mp4" if animation.has_ffmpeg() else "animation.gif"), rate, progress)
-    draw = {"overview": lambda: overview.draw(run, step), "fields": lambda: fields.draw(run, run.step_at(shown)),
+    draw = {"overview": lambda: overview.draw(run, step), "fields": lambda: maps.draw(run, run.step_at(shown)),
             "particles": lambda: particles.draw(run, step), "profiles": lambda: profiles.draw(run, shown),
             "history": lambda: history.draw(run, None if time is None else shown)}
     return save(draw[what](), folder / f"{what}.{ending}")
 
 
 def pictures(directory, what=None, time=None, out=None, ending="png", rate=None, progress=None):
-    """Draws the chosen pictures of a run (all that it holds) into a folder (RUN/pictures) and returns their paths."""
+    """Draws the chosen pictures of a run (by default all) into a folder (RUN/pictures) and returns their paths."""
     run = Snapshot(directory)
     what = kinds_of(run) if what is None else what
     if unknown := set(what) - set(WHAT):

@@ -1,4 +1,4 @@
-"""Numbers with their unit: what a run holds, by name."""
+"""The numbers of a run by name, with their units."""
 
 from __future__ import annotations
 
@@ -22,16 +22,15 @@ COLUMNS = {row["column"]: row for part in ("bed", "tfm", "dem") for row in TABLE
 ENDINGS = {f"_{row['unit']}": row["unit"] for row in COLUMNS.values() if row["unit"] != "1"}
 # Levels in a bed, by column what a picture calls them.
 LEVELS = {column: row["name"].replace("_", " ") for column, row in COLUMNS.items() if row["picture"]}
+SOURCES = ("history", "profiles", "fields")  # of quantities, in the order in which they are looked for
 # Units of fields and profiles by the beginning of their name.
 BEGINNINGS = {"phi_": "1", "voidage": "1", "u_": "m/s", "theta_": "m2/s2", "total_pressure": "Pa", "pressure": "Pa",
               "density": "kg/m3"}
 
 
 class Quantity(np.lib.mixins.NDArrayOperatorsMixin):
-    """An array with its unit and the times of its first axis. NumPy and arithmetic treat it as the array.
-
-    values: [time], [time][y], or [time][y][x] as the fields; unit: of its values, "1" without; time: s
-    """
+    """An array with its unit ("1" without) and the times of its first axis, s; NumPy and arithmetic treat it as the array. values: [time],
+    [time][y], or [time][y][x] as the fields"""
 
     def __init__(self, values: Any, unit: str, time: Any) -> None:
         self.values, self.unit, self.time = np.asarray(values), unit, np.asarray(time)
@@ -92,32 +91,21 @@ def find(run: Run, name: str, source: str | None = None) -> Quantity:
     """A quantity of a run: of its history, where the unit at the end of a column's name may be left out ("bed_height"), of its
     profiles, or of its fields. The first that has it, unless a source is named."""
     for key in sources_of(source):
-        quantity = SOURCES[key](run, name)
+        quantity = found_in(run, key, name)
         if quantity is not None:
             return quantity
     raise unknown(run.directory, name, names(run, source))
 
 
-def of_history(run: Run, name: str) -> Quantity | None:
+def found_in(run: Run, source: str, name: str) -> Quantity | None:
+    if source == "fields":
+        return Quantity(run.field(name)[:], unit_of_field(name), run.time) if name in run.fields else None
+    if source == "profiles":
+        profiles = {} if name in ("time_s", "y_m") else run.profiles
+        return Quantity(profiles[name], unit_of_field(name), profiles["time_s"]) if name in profiles else None
     history = run.history
-    for column in [name, *(name + ending for ending in ENDINGS)]:
-        if column in history:
-            return Quantity(history[column], unit_of_column(column), history["time_s"])
-    return None
-
-
-def of_profiles(run: Run, name: str) -> Quantity | None:
-    profiles = run.profiles
-    if name not in profiles or name in ("time_s", "y_m"):
-        return None
-    return Quantity(profiles[name], unit_of_field(name), profiles["time_s"])
-
-
-def of_fields(run: Run, name: str) -> Quantity | None:
-    return Quantity(run.field(name)[:], unit_of_field(name), run.time) if name in run.fields else None
-
-
-SOURCES = {"history": of_history, "profiles": of_profiles, "fields": of_fields}
+    column = next((column for column in [name, *(name + ending for ending in ENDINGS)] if column in history), None)
+    return Quantity(history[column], unit_of_column(column), history["time_s"]) if column else None
 
 
 def sources_of(source: str | None) -> list[str]:
@@ -142,7 +130,7 @@ def names(run: Run, source: str | None = None) -> Names:
     return Names({each: sorted({*getattr(run, each)} - {"y_m"}) for each in sources_of(source)})
 
 
-# Measures whose words are not those of the table of measures.
+# Measures with other words than in the table of measures.
 MEASURES = {"centre_difference": "distance of centres/height", "pressure_drop_over_weight": "pressure drop/weight",
             "mixing": "mixing (1 mixed, 0 apart)"}
 

@@ -27,7 +27,7 @@ ENDS_WITH_PARENT = 1  # PR_SET_PDEATHSIG
 LIBC = ctypes.CDLL(None)
 RANKS = ("POLYBED_RANKS", "OMPI_COMM_WORLD_SIZE", "PMI_SIZE")  # of -n before the command, or of a launcher
 OF_LAUNCHER = ("POLYBED_RANKS", "PMIX_", "PMI_", "OMPI_")  # beginnings of what a launcher leaves in the environment of its ranks
-OF_USER = ("OMPI_ALLOW_", "OMPI_MCA_")  # but for these, which may be the user's
+OF_USER = ("OMPI_ALLOW_", "OMPI_MCA_")  # except these, which can be the user's
 NOT_OF_USER = ("OMPI_MCA_orte_", "OMPI_MCA_ess", "OMPI_MCA_pmix", "OMPI_MCA_initial_wdir", "OMPI_MCA_shmem_RUNTIME",
                "OMPI_MCA_mpi_oversubscribe")
 CHECKPOINTS = ("checkpoint.h5", "checkpoint.previous.h5")
@@ -55,7 +55,7 @@ def sources() -> Path | None:
 
 
 def program() -> str:
-    """Path of the program: $POLYBED, or that installed beside this package, or that built in its sources, or the one on the path."""
+    """Path of the program: $POLYBED, or the one next to this package, built in its sources, or on the path."""
     built = sources()
     installed = [] if built == OWN.parents[2] else [OWN.parents[4] / "bin/polybed"]
     tried = [os.environ.get("POLYBED"), *installed, built and built / "build/polybed", found_program("polybed")]
@@ -77,7 +77,7 @@ def ranks() -> int:
 
 
 def environment() -> dict[str, str]:
-    """That of a child: without what a launcher says of this process, which is none of the child's ranks."""
+    """The environment of a child, without what a launcher says of this process."""
     kept = {name: value for name, value in os.environ.items() if not name.startswith(OF_LAUNCHER)
             or name.startswith(OF_USER) and not name.startswith(NOT_OF_USER)}
     return kept | {"PATH": search_path()}
@@ -85,7 +85,7 @@ def environment() -> dict[str, str]:
 
 def tie(count: int) -> Callable[[], None]:
     """What a child on so many ranks does before it becomes the program: it is tied to this process, so that it ends with it, however that
-    ends, and has all cores, of which a launcher may have left one to this process."""
+    ends, and has all cores, of which a launcher can have left one to this process."""
     parent = os.getpid()
 
     def begin() -> None:
@@ -181,7 +181,7 @@ class Door:
 
     def __exit__(self, kind: type[BaseException] | None, *_: object) -> None:
         if kind is KeyboardInterrupt:
-            self.child.terminate()  # it may be in a box
+            self.child.terminate()  # it can be in a box
         with contextlib.suppress(BrokenPipeError):
             self.questions.close()
         self.answers.close()
@@ -213,8 +213,7 @@ class Exit(NamedTuple):
 
 
 def run_within(seconds: float, words: Iterable[object], output: Path) -> Exit:
-    """Runs the program, and ends it when its time is over. output: a new file of what it prints; a link that has its name is removed and
-    not followed"""
+    """Runs the program, and ends it when its time is over. output: a new file of what it prints; a link of its name is not followed."""
     late, begin = threading.Event(), time.monotonic()
     output.unlink(missing_ok=True)
     with open(output, "xb") as file:
@@ -248,15 +247,11 @@ def wait_for(child: Child) -> int:
             child.terminate()
 
 
-def interrupt(_signal: int, _frame: Any) -> None:
-    raise KeyboardInterrupt
-
-
 def run(*words: object, answers: bool = False) -> None:
     """Runs the program, on as many ranks as this process was started with, and waits for its end. It speaks on standard error; its answer
     is that of the study if it `answers`, and else goes there too. Raises StudyError with the run's code; the text is empty if the run has
     said what is wrong."""
-    signal.signal(signal.SIGTERM, interrupt)
+    signal.signal(signal.SIGTERM, signal.default_int_handler)
     count = ranks()
     child = start(words, count, True, stdout=None if answers else sys.stderr)
     code = wait_for(child)
@@ -267,7 +262,7 @@ def run(*words: object, answers: bool = False) -> None:
 
 
 def has_checkpoint(directory: str | os.PathLike[str]) -> bool:
-    """Whether a run can go on from what is there."""
+    """Whether a run can continue from this directory."""
     return any(os.path.exists(os.path.join(directory, name)) for name in CHECKPOINTS)
 
 

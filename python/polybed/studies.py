@@ -1,5 +1,4 @@
-"""Commands that read a run or make a study, as functions of the same name; `polybed.compare` and `polybed.inversion` stand in
-polybed.program."""
+"""Commands that read a run or make a study, as functions; `polybed.compare` and `polybed.inversion` are in polybed.program."""
 
 from __future__ import annotations
 

@@ -7,7 +7,7 @@ from concurrent.futures import as_completed
 from dataclasses import dataclass
 from typing import NamedTuple
 
-from polybed.drawing.units import duration
+from polybed.texts import duration
 from polybed.ending import FILE, NUMBERS, StudyError
 from polybed.files import FAULTS, contents_of, finite, read_text
 from polybed.runner import Door, ranks, side_by_side
@@ -112,7 +112,7 @@ class Boxes:
         return sum(self.expected[n] for n in self.left())
 
     def run(self):
-        """Runs what is not finished; all results. Raises StudyError where boxes fail; finished ones are kept."""
+        """Runs the unfinished boxes; all results. Raises StudyError where boxes fail; finished ones are kept."""
         self.begin, self.all = time.monotonic(), self.expected_left()
         failed = self.run_on_ranks() if self.options.on_ranks else self.run_as_processes()
         if failed:
@@ -123,8 +123,7 @@ class Boxes:
         return results
 
     def run_by(self, door, places, finished):
-        """Has a program run boxes, in this order; `finished` is called each time its first rank has finished one. Returns the places of
-        those that failed."""
+        """Has a program run boxes in this order, calling `finished` as its first rank finishes one; returns the places that failed."""
         answer = door.ask("run", points=asked_of(self.points[n] for n in places), files=[str(self.path(n)) for n in places])
         while answer is None:
             finished()

@@ -5,12 +5,11 @@ import signal
 import time
 from pathlib import Path
 
-from polybed.arguments import parser_of, whole
-from polybed.calibration import bed, fit
+from polybed.ending import DONE, WRONG_CASE, StudyError, answer, guarded, parser_of, whole
+from polybed.calibration import fit
 from polybed.calibration.boxes import Boxes, Plan, asked_of
-from polybed.calibration.text import box_lines, deviation, deviation_lines, points_between, table_toml
-from polybed.drawing.units import duration
-from polybed.ending import DONE, WRONG_CASE, StudyError, answer, guarded
+from polybed.calibration.text import bed_lines, bed_rows, box_lines, deviation, deviation_lines, points_between, table_toml
+from polybed.texts import duration
 from polybed.files import in_place, put_text
 from polybed.program import name_of
 from polybed.runner import Door, ranks
@@ -78,7 +77,7 @@ def show_plan(options, plan, boxes):
 
 def check_table(options, door, plan):
     """Runs points between the knots of a table and says how they compare."""
-    door.ask("table", table=options.check)  # ends for what is none
+    door.ask("table", table=options.check)  # ends for a file that is no table
     table = read_table(options.check)
     if table.attributes["regime"] != plan.regime:
         raise StudyError(WRONG_CASE, f"{options.check} is a {table.attributes['regime']} table, the boxes of the case are {plan.regime}: "
@@ -105,10 +104,10 @@ def say_table(options, plan, count, tested):
 
 def finish_bed(options, plan, boxes):
     """Fluidised boxes: p_bed by both measures, and the table of that by slabs."""
-    table = bed.bed_table(plan.seeds, boxes, plan.case["weight_m2_s2"])
-    lines = bed.bed_lines(boxes) + "\n" + bed.bed_rows(table)
+    table = fit.bed_table(plan.seeds, boxes, plan.case["weight_m2_s2"])
+    lines = bed_lines(boxes) + "\n" + bed_rows(table)
     keep(options, "boxes.txt", lines)
-    bed.require_usable(table)
+    fit.require_usable_bed(table)
     identify(table, plan)
     with in_place(options.output / "table.h5") as path:
         table.write(path)
@@ -131,7 +130,7 @@ def tested_lines(tested):
 
 
 def finish_sheared(options, door, plan, boxes, table):
-    """Sheared boxes: what they have measured, and the fitted table if it may be used."""
+    """Sheared boxes: what they have measured, and the fitted table if it can be used."""
     if options.bed:
         of_bed = read_table(options.bed)
         table.arrays |= {"phi_bed": of_bed["phi"], "p_bed": of_bed["p_bed"]}
@@ -157,7 +156,7 @@ def finish_sheared(options, door, plan, boxes, table):
 def calibrate(options, door):
     plan = Plan.of_case(door.ask("case", case=options.case, settings=options.set))
     if options.bed:
-        door.ask("bed", table=options.bed)  # ends for what is none
+        door.ask("bed", table=options.bed)  # ends for a file that is no table
     if options.on_ranks and options.jobs > 1:
         raise StudyError(WRONG_CASE, "-j starts processes of its own: under mpirun the ranks run the boxes, leave it out")
     if options.plan:

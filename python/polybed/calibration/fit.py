@@ -1,70 +1,31 @@
-"""From boxes to a table: means over seeds, their errors, and whether the table may be used."""
+"""From boxes to a table: means over seeds, their errors, and whether the table can be used."""
 
 import itertools
 import math
-from dataclasses import dataclass, field
 
-import h5py
 import numpy as np
 from scipy.interpolate import CubicHermiteSpline, PchipInterpolator
 from scipy.special import ndtr, stdtrit
 
 from polybed.ending import NUMBERS, StudyError
-from polybed.solids_table import AXES, checksum
+from polybed.solids_table import AXES, SolidsTable
 
 SCATTER_SEEDS = 3  # from so many seeds on their scatter alone is the error of their mean; points that scatter get more seeds
 MOST_SEEDS = 10  # of a point
-GREATEST_RESIDUAL = 0.05  # of a fit that may be used, and the greatest standard error of its points
+GREATEST_RESIDUAL = 0.05  # of a fit that can be used, and the greatest standard error of its points
+AGREEMENT = 0.05  # what both measures of the pressure of a bed can differ by
 LEAST_TO_LEAVE_OUT = 4  # solids fractions from which on one can be left out and read from the others
 
 
-@dataclass
-class Table:
-    """A table of the solids stress, named as in its file."""
-    arrays: dict = field(default_factory=dict)  # axes, and quantities [phi][stokes][e][mu_p][x2]
-    attributes: dict = field(default_factory=dict)
-
-    def __getitem__(self, name):
-        return self.arrays[name]
-
-    def put(self, name, values):
-        """Adds a quantity, one value for each point."""
-        self.arrays[name] = np.reshape(values, [len(self.arrays[axis]) for axis in AXES])
-
-    def points(self, name):
-        """A quantity, or the solids fraction, of each point."""
-        values = self.arrays[name]
-        return np.repeat(values, self.arrays["S"].size // len(values)) if name == "phi" else values.ravel()
-
-    def lines(self, name):
-        """A quantity along phi, one row for each place in the other axes."""
-        return self.arrays[name].reshape(len(self.arrays["phi"]), -1).T
-
-    def write(self, path):
-        with h5py.File(path, "w") as file:
-            for name, values in self.arrays.items():
-                file[name] = np.asarray(values, float)
-            file.attrs.update(self.attributes)
-            file.attrs["crc32"] = checksum(self.arrays)
-
-
-def student_one_sigma(degrees):
-    """Student's factor of one standard error: half-width of the two-sided 68.27 % interval."""
-    if degrees < 1:
-        raise ValueError("no degrees of freedom")
-    return float(stdtrit(degrees, ndtr(1)))
-
-
 def mean_of_seeds(seeds):
-    """Mean over seeds, (mean, error) of each, and its error: t s/sqrt(n), s the standard deviation of the n boxes about their mean and t
-    Student's factor. Seeds are independent, and blocks of one are not: they remember the start, which makes their error too small, and
-    count as error what all boxes lose on their way, which makes it too great. Of two seeds, the error of the boxes' own together if it is
-    more; of one that."""
+    """Mean of (mean, error) of seeds, and its error t s/sqrt(n), with the standard deviation s of the n boxes and Student's factor t. Blocks
+    of one box are not independent: they remember the start, and count what all boxes lose on their way. Of two seeds at least the boxes'
+    own errors together; of one its own."""
     (means, errors), n = zip(*seeds), len(seeds)
     mean, inner = float(np.mean(means)), math.hypot(*errors) / n
     if n < 2:
         return mean, inner
-    outer = student_one_sigma(n - 1) * float(np.std(means, ddof=1)) / math.sqrt(n)
+    outer = float(stdtrit(n - 1, ndtr(1)) * np.std(means, ddof=1)) / math.sqrt(n)  # 68.27 %
     return mean, max(inner, outer) if n < SCATTER_SEEDS else outer
 
 
@@ -95,7 +56,7 @@ def fitted(plan, boxes):
     inertia = 0.0
     if plan.regime == "wet" and len(axes["stokes"]) > 1:  # of the first restitution, friction and share
         inertia = fitted_inertia(axes["stokes"], np.reshape(plain, (len(axes["phi"]), len(axes["stokes"]), -1))[:, :, 0].tolist())
-    table = Table(axes, {"regime": plan.regime, "reference": plan.case["reference"], "lambda": inertia})
+    table = SolidsTable(axes, {"regime": plan.regime, "reference": plan.case["reference"], "lambda": inertia})
     for name in ("p_ratio", "mu_ratio", "gamma_ratio"):
         add_means(table, name, name, points, np.array([1 / (1 + inertia * point.stokes) for point in plan.points()]))
     add_means(table, "T_ratio_12", "temperature_ratio", points)
@@ -155,8 +116,7 @@ def relative_errors(table):
 
 
 def add_seeds(plan, table):
-    """A seed more at every point whose standard error is too great and that has fewer than MOST_SEEDS, of a plan that wants its points
-    known. Returns whether there is such a point."""
+    """Adds a seed at each point that scatters too much and has fewer than MOST_SEEDS, if seeds are to be added; whether there is one."""
     if min(plan.seeds) < SCATTER_SEEDS:
         return False
     more = [error > GREATEST_RESIDUAL and seeds < MOST_SEEDS for error, seeds in zip(relative_errors(table), plan.seeds)]
@@ -175,8 +135,7 @@ def require_exchange(table):
 
 
 def require_usable(table, falls):
-    """Raises StudyError with what is wrong with a table: where its pressure falls, its residual, or, with several seeds, a point whose
-    standard error is too great. falls: places, as the program answers"""
+    """Raises StudyError if the pressure falls, the residual or, of several seeds, a standard error is too great. falls: places"""
     if falls:
         raise StudyError(NUMBERS, "the pressure of the table falls with the solids fraction, which no bed can follow: " + "; ".join(falls))
     residual, allowed = table.attributes["fit_residual"], f"{100 * GREATEST_RESIDUAL:.0f} % are allowed"
@@ -191,3 +150,35 @@ def require_usable(table, falls):
             more = math.ceil((error / GREATEST_RESIDUAL) ** 2 * seeds)
             raise StudyError(NUMBERS, f"at phi = {phi:g} the seeds scatter: p or mu has a standard error of {100 * error:.1f} %, {allowed}; "
                                    f"raise calibrate.seeds to about {more} ({seeds:g} at this point), or calibrate.particles likewise")
+
+
+def bed_table(seeds, boxes, weight):
+    """Means over the seeds of each point, in rising phi. weight: |rho_p - rho_f| g D/rho_p, m2/s2"""
+    points = grouped(boxes, seeds)
+    slabs, balance = ([mean_of_seeds([tuple(box[name]) for box in point]) for point in points] for name in ("p_bed", "p_bed_by_balance"))
+    return SolidsTable({
+        "phi": [sum(box["bed_phi"] / len(point) for box in point) for point in points],
+        "p_bed": [mean for mean, _ in slabs], "p_bed_se": [error for _, error in slabs],
+        "p_bed_n": [float(len(point)) for point in points],
+        "p_bed_by_balance": [mean for mean, _ in balance], "p_bed_by_balance_se": [error for _, error in balance],
+        "theta_bed": [sum(box["theta_m2_s2"][0] / len(point) for box in point) / weight for point in points],
+        "velocity": [point[0]["velocity_m_s"] for point in points],
+    }, {"regime": "bed", "units": "p_bed over |rho_p - rho_f| g D; theta_bed over that and rho_p; velocity m/s"})
+
+
+def rows_of_bed(table):
+    """(phi, p_bed by slabs, its error, by the balance of forces, its error) of each row."""
+    return list(zip(*(table[name] for name in ("phi", "p_bed", "p_bed_se", "p_bed_by_balance", "p_bed_by_balance_se"))))
+
+
+def require_usable_bed(table):
+    """Raises StudyError where the pressure does not rise, or where both measures differ by more than AGREEMENT and two standard errors."""
+    last = None
+    for phi, slabs, slabs_error, balance, balance_error in rows_of_bed(table):
+        off = abs(balance - slabs)
+        if off > AGREEMENT * abs(slabs) and off > 2 * math.hypot(slabs_error, balance_error):
+            raise StudyError(NUMBERS, f"at phi = {phi:.3f} the pressure is {slabs:.4g} by slabs and {balance:.4g} by the balance of forces, "
+                                   f"over the unit: {100 * off / abs(slabs):.0f} % apart, {100 * AGREEMENT:.0f} % are allowed")
+        if last and not (phi > last[0] and slabs > last[1]):
+            raise StudyError(NUMBERS, f"p_bed falls between phi = {last[0]:.3f} and {phi:.3f}: {last[1]:.4g} and {slabs:.4g}")
+        last = phi, slabs

@@ -1,5 +1,4 @@
-"""A table beside its file: the same as TOML, what the boxes have measured, for people; and points that a table was not fitted to, compared
-with it."""
+"""A table as TOML, and what the boxes have measured, for people; and points that a table was not fitted to, compared with it."""
 
 import json
 import math
@@ -7,9 +6,9 @@ import math
 import numpy as np
 
 from polybed.calibration.boxes import Point
-from polybed.calibration.fit import relative_errors, shear_number
+from polybed.calibration.fit import relative_errors, rows_of_bed, shear_number
 from polybed.solids_table import AXES
-from polybed.tables import right_table
+from polybed.texts import right_table
 
 # Column of a box: (heading, its number or text)
 PLACE = (("phi", lambda box: f"{box['solids_fraction']:g}"), ("St", lambda box: f"{box['stokes']:g}"),
@@ -67,7 +66,7 @@ def unit_of(box):
 
 
 def table_lines(boxes, quantities):
-    """A line for each box, at most 100 columns wide, below what is the same in all of them."""
+    """A line for each box, at most 100 columns wide, below the entries that all of them share."""
     texts = {name: [text(box) for box in boxes] for name, text in PLACE + quantities}
     same = [name for name, _ in PLACE[1:-1] if len(set(texts[name])) == 1]
     head = [name for name in texts if name not in same]
@@ -89,8 +88,7 @@ def box_lines(boxes):
 
 
 def points_between(table, binary):
-    """Three points between the knots of a table: the middle of its first, middle and last distance in phi; of a wet table between two
-    Stokes numbers, in the logarithm; of the other axes the first knot."""
+    """Three points between knots: middles of the first, middle and last gap in phi, of two Stokes numbers (ln), first knots else."""
     phi, stokes = list(map(float, table["phi"])), list(map(float, table["stokes"]))
     half = (len(stokes) - 1) // 2
     middle = math.sqrt(stokes[half] * stokes[half + 1]) if len(stokes) > 1 else stokes[0]
@@ -117,3 +115,17 @@ def deviation_lines(points, deviations):
 
     head = ("phi", "St", "p, box over table", "mu, box over table")
     return right_table(head, [[f"{point.phi:.4g}", f"{point.stokes:.4g}", told(*p), told(*mu)] for point, (p, mu) in zip(points, deviations)])
+
+
+def bed_lines(boxes):
+    head = ("planned", "phi", "seed", "p_bed by slabs", "by balance", "slabs/balance")
+    return right_table(head, [[f"{box['solids_fraction']:g}", f"{box['bed_phi']:.4f}", box["seed"], measured(box["p_bed"]),
+                               measured(box["p_bed_by_balance"]), f"{box['p_bed'][0] / box['p_bed_by_balance'][0]:.3f}"] for box in boxes])
+
+
+def bed_rows(table):
+    head = ("mm/s", "phi", "p_bed by slabs", "by balance", "difference", "theta")
+    return right_table(head, [[f"{1e3 * velocity:.3f}", f"{phi:.4f}", measured((slabs, slabs_error)), measured((balance, balance_error)),
+                               f"{100 * (balance / slabs - 1):+.1f} %", f"{theta:.3g}"]
+                              for (phi, slabs, slabs_error, balance, balance_error), velocity, theta in zip(rows_of_bed(table), table["velocity"],
+                                                                                                           table["theta_bed"])])

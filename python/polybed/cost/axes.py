@@ -1,13 +1,69 @@
-"""What a sweep varies: axes, their levels, and the settings of the command line that a level stands for."""
+"""The case of a sweep, and what a sweep varies: axes, their levels, and the settings that a level stands for."""
 
+import resource
 from dataclasses import dataclass, field, replace
 from functools import partial
 
-from polybed.cost.scene import LEAST_MODULUS
 from polybed.ending import WRONG_CASE, StudyError
+from polybed.runner import answer_of, words_of
+from polybed.study.cases import Case
 
 NUMERICS, MODEL = "numerics", "model"
 DRAG_LAWS = ("cello", "vbk_theory", "gidaspow", "di_felice")
+LEAST_MODULUS = 5e6  # Pa, core::least_modulus: what contacts have unless the case says otherwise
+
+
+def children_seconds():
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
+
+
+class Scene(Case):
+    """A case with settings of its own, and what `polybed check` says of it."""
+
+    def __init__(self, path, overrides, until=None):
+        super().__init__(path, overrides, until)
+        before = children_seconds()
+        self.needs = answer_of("check", path, *words_of(self.overrides))
+        self.seconds = children_seconds() - before  # CPU time of the check, which balances the forces on the bed
+
+    def of(self, path, default=None):
+        """The value of a key, "tfm.rtol"; the default if the case has none."""
+        table, name = path.split(".")
+        return self.keys[table].get(name, default)
+
+    def law(self, role):
+        """The law of a role in [effects]; "none" if it is off."""
+        return self.of(f"effects.{role}", "none")
+
+    @property
+    def cells(self):
+        """Numbers of cells along x, y and, in three dimensions, z."""
+        return self.of("column.cells")
+
+    @property
+    def is_tapered(self):
+        """Whether the balance of forces changes with height."""
+        return self.of("column.profile") is not None
+
+    @property
+    def has_fluid(self):
+        return self.of("fluid.name") != "none"
+
+    @property
+    def only_for_particles(self):
+        """Whether the two-fluid model cannot run it."""
+        return "dt_limits" not in self.needs
+
+    @property
+    def as_particles(self):
+        """Whether the particle model, too, can run it."""
+        return "dem" in self.needs
+
+    def carried(self):
+        """Height, m, of the uniform bed that the forces balance on, measured on the slabs of the case as in a run; None where the fluid
+        carries a lone particle away."""
+        return self.needs["dt_limits"]["expanded"]["bed_height_m"]
 
 
 @dataclass
@@ -15,7 +71,7 @@ class Level:
     label: str  # "1e-3", "18x128"
     value: float = 0  # in the direction of the axis; 0: it has none
     overrides: list = field(default_factory=list)  # "key=value" each
-    model: str = ""  # tfm | dem | force_balance; empty: that of the sweep
+    model: str = ""  # tfm | dem | force_balance; empty: the model of the sweep
 
 
 @dataclass
@@ -131,8 +187,7 @@ def acting_axes(scene, model):
 
 
 def axes_of(scene, model, names):
-    """The axes of these names in the order of a sweep, without names all. Raises StudyError for a name that is unknown, or that does not act
-    in this case."""
+    """The axes of these names, or all, in the order of a sweep. Raises StudyError for one that is unknown or does not act in the case."""
     acting = acting_axes(scene, model)
     for name in names:
         if name not in acting:

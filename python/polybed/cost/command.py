@@ -1,25 +1,27 @@
-"""The command line of polybed cost."""
+"""The command line of polybed cost: a sweep, and its recommendation run again."""
 
 import argparse
 import re
+import tempfile
+import tomllib
 from pathlib import Path
 
-from polybed.arguments import parser_of
-from polybed.cost import attribution, front
-from polybed.cost.axes import MAKERS, MODEL, NUMERICS
-from polybed.cost.check import check_recommendation
+from polybed.ending import DONE, FILE, NUMBERS, WRONG_CASE, StudyError, answer, guarded, parser_of
+from polybed.cost import front
+from polybed.cost.axes import MAKERS, MODEL, NUMERICS, Scene
 from polybed.cost.judge import measure_distances, measure_errors, rank, settings_text
 from polybed.cost.reference import find_reference
 from polybed.cost.report import sweep_json, sweep_markdown, write_sweep
-from polybed.cost.runner import Runner
-from polybed.cost.scene import Scene
-from polybed.cost.sweep import CANDIDATE
+from polybed.cost.runner import RunOrder, Runner
+from polybed.cost.sweep import CANDIDATE, quantities_of_run
 from polybed.cost.sweeper import Sweeper, common_overrides
+from polybed.files import contents_of, put_text, read_json, read_text
 from polybed.program import name_of
 from polybed.runner import call, words_of
+from polybed.study.cases import Case
 from polybed.study.output import draw, subfolder, taken
-from polybed.ending import DONE, FILE, NUMBERS, WRONG_CASE, StudyError, answer, guarded
 
+TIME_ALLOWED, ROUNDING = 0.25, 1e-9  # of the time and the error of a recommendation that is run again
 NUMBER = r" *\+?(\d+\.?\d*(?:[eE][-+]?\d+)?|\.\d+(?:[eE][-+]?\d+)?) *"
 
 
@@ -72,7 +74,7 @@ def model_of(scene, wanted):
 
 
 def run_sweep(scene, options, runner):
-    """A sweep from its first run to its recommendation: lines, reference, front, attribution. One process that starts others."""
+    """A sweep from its first run to its recommendation: lines, reference, front, parts of the error. One process that starts others."""
     sweeper = Sweeper(scene, options, runner)
     sweep = sweeper.sweep
     if not sweeper.find_regime():
@@ -86,15 +88,15 @@ def run_sweep(scene, options, runner):
             measure_errors(sweep, row)
         front.fit_laws(sweeper)
         front.run_front(sweeper)
-    attribution.run_solver(sweeper)
+    front.run_solver(sweeper)
     sweeper.run_lines(MODEL)
-    attribution.run_inputs(sweeper)
+    front.run_inputs(sweeper)
     for row in sweep.rows:
         measure_errors(sweep, row)
     measure_distances(sweep)
     rank(sweep)
     front.compare_predictions(sweeper)
-    attribution.attribute(sweeper)
+    front.attribute(sweeper)
     for row in sweep.rows:
         if row.kind == CANDIDATE and row.done and sweep.chaotic and row.measured.too_short:
             sweep.warnings.append(f"{settings_text(sweep, row)}: window too short for {row.measured.too_short}: fewer than 30 "
@@ -121,6 +123,62 @@ def sweep(given):
         if given.picture:
             draw(folder / "cost.json", "picture", given.quiet)
     return found.outcome == "done"
+
+
+def held(what, unit, claimed, found, allowed):
+    """Whether a claim is confirmed, and a line that says so."""
+    holds = abs(found - claimed) <= allowed
+    return holds, (f"{what}: claimed {claimed:.4g}, found {found:.4g} {unit}, allowed {allowed:.2g} either way: "
+                   f"{'holds' if holds else 'does not hold'}")
+
+
+def scene_of(sweep):
+    """The case of a sweep as it stands now, with the settings of all its runs. Refuses one that was changed since."""
+    path, overrides = sweep["case_path"], sweep["overrides"]
+    with tempfile.TemporaryDirectory() as folder:
+        then = Path(folder) / "case.toml"
+        then.write_text(sweep["case"], encoding="utf-8")
+        before = Case(then, overrides)
+    now = Scene(path, overrides)
+    if now.text != before.text:
+        raise StudyError(WRONG_CASE, f"{path} was changed since it was swept: `polybed cost {path} --force` first")
+    return now
+
+
+def run_again(sweep, advised, folder):
+    """The outcome of the recommended run, done now, and what it measures."""
+    with contents_of(folder / "cost.json"):
+        order = RunOrder(advised["model"], tuple(advised["overrides"]))
+        seconds = 60 + 20 * sweep["runs"][advised["run"]]["wall_s"][0]
+        on = sweep["window_s"], tomllib.loads(sweep["case"])["column"]["cells"][1]
+        overrides = sweep["overrides"]
+    (folder / "check").mkdir(exist_ok=True)
+    outcome = Runner(scene_of(sweep), overrides, folder / "check", False).run(order, seconds)
+    if not outcome.done:
+        raise StudyError(NUMBERS, f"the run that was recommended: {outcome.state}: {outcome.reason}")
+    return outcome, quantities_of_run(outcome.measured, *on)
+
+
+def check_recommendation(folder):
+    """Runs the recommendation of DIR/cost.json again, says whether error and time (25 %) agree, also in the file, and returns it."""
+    path = folder / "cost.json"
+    sweep = read_json(path, "polybed cost")
+    with contents_of(path):
+        advised = next(iter(sweep["recommend"]), None)
+    if advised is None:
+        raise StudyError(WRONG_CASE, f"{path}: nothing is recommended")
+    outcome, measured = run_again(sweep, advised, folder)
+    with contents_of(path):
+        name, clock, claimed = advised["qoi"], sweep["clock"], advised["s_per_sim_s"]
+        scale = next(q["scale"] for q in sweep["qoi"] if q["id"] == name)
+        found = abs(measured.values[name].mean - sweep["reference"]["value"][name]) / scale
+        claims = (held(f"error of {name}", "", advised["error"], found, (advised["ci"] or 0) + ROUNDING),
+                  held(f"time by {clock}", "s for a simulated second", claimed, outcome.rate(clock), TIME_ALLOWED * claimed))
+    answer("\n".join(line for _, line in claims))
+    confirmed = all(holds for holds, _ in claims)
+    if confirmed:
+        put_text(path, read_text(path).replace('"confirmed": false', '"confirmed": true', 1))
+    return confirmed
 
 
 def work(given):

@@ -1,11 +1,9 @@
 """What the errors of a sweep are measured against."""
 
 from polybed.cost.axes import setting
-from polybed.cost.judge import FLOOR_FACTOR, carries, measure_errors, scale_of, settings_text
-from polybed.cost.quantities import quantities_of_run
-from polybed.cost.fit import refine
+from polybed.cost.judge import FLOOR_FACTOR, carries, measure_errors, refine, scale_of, settings_text
 from polybed.cost.runner import RunOrder
-from polybed.cost.sweep import CANDIDATE, REFERENCE, Reference, Row
+from polybed.cost.sweep import CANDIDATE, REFERENCE, Reference, Row, quantities_of_run
 from polybed.study.measured import measured
 
 FORMAL_ORDER = 2  # of the discretisation in space where nothing is sharp

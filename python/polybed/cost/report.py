@@ -4,17 +4,15 @@ import os
 from math import isfinite
 
 from polybed.cost.judge import level_of, scale_of
-from polybed.cost.sweep import CANDIDATE
-from polybed.cost.words import CLOCKS, REFERENCE, STATUS, in_words, part, percent
+from polybed.cost.sweep import CANDIDATE, CLOCKS, REFERENCES, STATUS, in_words, part, percent
 from polybed.cost.runner import VERSION, weighed
-from polybed.drawing.units import text
+from polybed.texts import markdown_table, text
 from polybed.files import put_text
 from polybed.program import name_of
 from polybed.runner import commit_and_build
 from polybed.study.output import json_text
-from polybed.tables import markdown_table
 
-ALWAYS = ("rtol", "grid", "scheme", "steps", "coupling")  # axes whose level each row tells, the others where it is not that of the first row
+ALWAYS = ("rtol", "grid", "scheme", "steps", "coupling")  # axes in each row, others where the level differs from the first row
 OUTCOMES = {"refused": "No recommendation", "failed": "The sweep failed"}
 MADE_OF = ("what the error is made of", "change where a datum is off by its usual uncertainty")
 
@@ -86,7 +84,7 @@ def sweep_json(sweep, scene, overrides):
 
 
 def settings_words(found, run):
-    """The settings of a run in words, and what is special about it."""
+    """The settings of a run in words, and its note."""
     first = next((one["settings"] for one in found["runs"] if one["settings"]), {})
     words = [in_words(axis, level) for axis, level in run["settings"].items() if axis in ALWAYS or level != first.get(axis)]
     return ", ".join(words + ([run["note"]] if run["note"] else [])) or run["kind"]
@@ -139,7 +137,7 @@ def shares_of(found):
 def definitions(found):
     """What the numbers are, in sentences."""
     kind, note = found["reference"]["kind"], found["reference"].get("note")
-    return (f"Computing times are {CLOCKS[found['clock']]}. An error is the distance from the reference: {REFERENCE.get(kind, kind)}"
+    return (f"Computing times are {CLOCKS[found['clock']]}. An error is the distance from the reference: {REFERENCES.get(kind, kind)}"
             f"{f' ({note})' if note else ''}. Heights are measured on slabs as high as the cells of the case, in the reference, too: a sharp top is "
             "read up to a tenth of a slab too high or too low.")
 

@@ -1,5 +1,4 @@
-"""Runs a case by the program itself, one child process a run, and keeps what came of it: a sweep that is killed goes on with the runs
-that were done."""
+"""Runs a case by the program, one child process a run, and keeps what came of it for a sweep that continues."""
 
 import json
 import math
@@ -28,10 +27,7 @@ STEP = re.compile(r"\d{6,}\.h5(\.temporary)?")
 
 
 def counters_of(record, cells):
-    """Counters of a run's record by the names of run.json; those that grow with the case are multiplied by its size.
-
-    cells: of the fluid of a run of particles
-    """
+    """Counters of a run's record; those that grow with the case are multiplied by its size. cells: of the fluid of a particle run"""
     work = record["work"]
     if record["model"] == "tfm":
         unknowns = record["unknowns"]
@@ -64,7 +60,7 @@ class RunOrder(NamedTuple):
 @dataclass
 class RunOutcome:
     state: str  # done | failed | refused | not run
-    reason: str = ""  # of what is not done
+    reason: str = ""  # if not done
     wall: float = 0.0  # s, of the first time it was run
     cpu: float = 0.0  # s, without output
     simulated: float = 0.0
@@ -111,7 +107,7 @@ class Runner:
         self.spent = 0.0  # s, wall time of all runs that stand for this sweep: those found there count as if they had been done now
 
     def run(self, order, seconds):
-        """Does a run, unless it was done. seconds: wall time that it may take"""
+        """Does a run, unless it was done. seconds: wall time that it is allowed"""
         told = (self.scene.text, " ".join(self.overrides), order.model, "1", " ".join(order.overrides))
         folder = self.folder / hash_of(" ".join(told).encode())
         if folder not in self.seen and not (self.resume and self.ended(folder)):
@@ -126,7 +122,7 @@ class Runner:
 
     @staticmethod
     def ended(folder):
-        """Whether a run lies there that came to its own end, not to that of an earlier budget."""
+        """Whether a run there came to its own end, not to the end of an earlier budget."""
         path = folder / "end.json"
         return path.exists() and not json.loads(read_text(path))["timed_out"]
 

@@ -1,16 +1,112 @@
-"""What was run, what it is measured against, and what follows."""
+"""What was run, by which quantities it is measured against what, and what follows; and what names in cost.json are called in words."""
 
 from argparse import Namespace
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import NamedTuple
 
-from polybed.cost.fit import Priced
-from polybed.cost.quantities import RunQuantities
+import numpy as np
+
 from polybed.cost.runner import RunOrder, RunOutcome
+from polybed.quantities import TABLE
+from polybed.study.measured import centre_column, means_of, species_of
 
 # What a row stands for.
 CANDIDATE, MODEL, REFERENCE, TWIN, SOLVER, INPUT = "candidate", "model", "reference", "twin", "solver", "input"
+HELP = {row["name"]: row["help"] for part in ("bed", "distances") for row in TABLE[part]}
+ENOUGH = 30  # autocorrelation times in a window
+LENGTH, SHARE = "length", "share"  # what errors are relative to: the reference's bed height, or 1
+# status of a run
+STATUS = {"pareto": "nothing cheaper is as accurate", "dominated": "another is cheaper and as accurate",
+          "hollow": "too near the reference to be ranked", "model": "not ranked: model, data or solver differ",
+          "predicted": "predicted, not run", "not run": "not run", "failed": "failed", "refused": "refused"}
+# kind of the reference
+REFERENCES = {"exact": "the force balance of a uniform bed", "self": "the same model, solved more exactly",
+              "extrapolated": "the same model, solved more exactly, extrapolated to infinitely fine cells",
+              "statistical": "the longest run on the finest grid", "directory": "a run that was given", "": "there is none"}
+# parts of the error
+PARTS = {"space": "size of the cells", "solver and coupling tolerance": "tolerance of the pressure solver or of the coupling to the fluid",
+         "statistics": "fluctuations of the bed", "closure spread": "choice of drag law, stress or stiffness",
+         "level": "choice of the model: force balance, 1-D, 2-D, particles"}
+# what a sweep varies
+AXES = {"rtol": "relative tolerance (tfm.rtol)", "grid": "cells", "steps": "steps per contact (dem.steps_per_contact)",
+        "coupling": "steps of the particles in one of the fluid (dem.fluid_every)"}
+CLOCKS = {"work": "counted work", "wall": "wall time"}
+
+
+def in_words(axis, level):
+    """A level of an axis: "relative tolerance (tfm.rtol) 0.001"."""
+    return f"{AXES.get(axis, axis)} {level}"
+
+
+def part(row):
+    return PARTS.get(row, row)
+
+
+def percent(share, error=None):
+    """"0.4 ± 0.1 %"; a dash without a number."""
+    if share is None:
+        return "\u2013"
+    return f"{100 * share:.2g}" + (f" \u00b1 {100 * error:.1g}" if error else "") + " %"
+
+
+class QuantityInfo(NamedTuple):
+    id: str
+    unit: str
+    definition: str
+    scale: str
+
+
+@dataclass
+class RunQuantities:
+    values: dict = field(default_factory=dict)  # those that the run has, TimeMean
+    directory: Path | None = None  # of the run, if it has stored profiles in the window
+    too_short: str = ""  # a quantity with fewer than 30 autocorrelation times
+    centre: float | None = None  # of the volume of all solids, m
+
+
+def quantities_of(species):
+    several = [("centre_difference", "1", SHARE), ("mixing", "1", SHARE), ("interface", "m", LENGTH), ("composition", "1", SHARE)]
+    rows = [("bed_height", "m", LENGTH), *((f"centre_{name}", "m", LENGTH) for name in species), ("pressure_drop", "1", SHARE),
+            *(several if len(species) > 1 else []), ("profile", "1", SHARE)]
+    words = HELP | {f"centre_{name}": HELP["centre_<name>"] for name in species} | {"pressure_drop": "over the buoyant weight"}
+    return [QuantityInfo(name, unit, words[name], scale) for name, unit, scale in rows]
+
+
+def centre_of(measured):
+    """Height, m, of the centre of volume of all solids in a mean profile, as in a column of one width; None for an empty one."""
+    solids = sum(np.nan_to_num(np.array(of["mean"], float)) for of in measured.fraction.values())
+    return float(np.average(measured.height, weights=solids)) if np.sum(solids) > 0 else None
+
+
+def quantities_of_run(run, begin, slabs):
+    """By the definitions of docs/reference/measures.md, from a time on, s, on so many slabs of the column. Heights and centres are means of the rows of the history,
+    moved by what the profiles stored in the window differ by if measured on these slabs."""
+    species, found = species_of(run.history), RunQuantities()
+    if not (run.history["time_s"] > begin).any():  # all particles had left before it
+        return found
+    [measured] = means_of(run.directory, begin=begin, slabs=slabs).runs
+    columns = {"bed_height": "bed_height_m", **{f"centre_{name}": centre_column(name) for name in species},
+               "pressure_drop": "pressure_drop_over_weight"}
+    if len(species) > 1:
+        columns |= {"centre_difference": "centre_difference", "mixing": "mixing"}
+    for name, column in columns.items():
+        mean = measured.means.get(column)
+        if mean is None:
+            continue
+        if mean.error and measured.rows < ENOUGH * mean.correlation:
+            found.too_short = name
+        found.values[name] = mean
+    found.directory = run.directory if measured.profiles else None
+    found.centre = centre_of(measured)
+    if len(species) > 1 and "interface_m" in measured.of_profile:
+        found.values["interface"] = measured.of_profile["interface_m"]
+    return found
+
+
+class Priced(NamedTuple):
+    error: float
+    cost: float
 
 
 class RowQuantity(NamedTuple):
@@ -26,7 +122,7 @@ class Row:
     order: RunOrder
     kind: str = CANDIDATE
     settings: dict = field(default_factory=dict)  # level of each axis by its number; an axis left out has the given one
-    note: str = ""  # of what is not told by the settings: "temperature + 1 K"
+    note: str = ""  # what the settings do not say: "temperature + 1 K"
     outcome: RunOutcome | None = None
     measured: RunQuantities = field(default_factory=RunQuantities)
     quantities: dict = field(default_factory=dict)  # RowQuantity by name

@@ -1,12 +1,11 @@
-"""The course of a sweep: its runs, and what they may take."""
+"""The course of a sweep: its runs, and the time that they can take."""
 
 import numpy as np
 
 from polybed.cost.axes import MODEL, NUMERICS, axes_of, setting
 from polybed.cost.judge import settings_text
-from polybed.cost.quantities import quantities_of, quantities_of_run
 from polybed.cost.runner import RunOrder, RunOutcome
-from polybed.cost.sweep import CANDIDATE, TWIN, Row, Sweep
+from polybed.cost.sweep import CANDIDATE, TWIN, Row, Sweep, quantities_of, quantities_of_run
 from polybed.ending import WRONG_CASE, StudyError
 from polybed.study.measured import ROUNDING, TimeMean, centre_column, species_of
 from polybed.study.output import remark
@@ -19,7 +18,7 @@ PARTED, CONSTANT = 1e-2, 1e-9  # shares of what a signal varies by, of its mean
 
 
 def common_overrides(scene):
-    """What every run of a sweep is given beside its settings, so that all store the same."""
+    """Overrides of every run of a sweep, so that all store the same."""
     until = scene.of("run.until")
     return [setting("output.every", until / PROFILES), setting("output.history_every", until / HISTORY_ROWS),
             setting("output.checkpoint_every", until)]
@@ -49,8 +48,7 @@ def is_chaotic(signal, twin):
 
 
 class Sweeper:
-    """Runs the rows of a sweep, each once, within its budget. centre: the settings from which each axis is varied alone, on the coarsest
-    grid."""
+    """Runs the rows of a sweep, each once, within its budget. centre: settings from which each axis is varied, on the coarsest grid."""
 
     def __init__(self, scene, options, runner):
         self.scene, self.runner, self.sweep = scene, runner, Sweep(options)
@@ -92,8 +90,7 @@ class Sweeper:
         return (values[self.centre["grid"]] / values[level]) ** (powers + 0.5)
 
     def axis_ratio(self, axis, level):
-        """By what a level of an axis is expected to change the time of the centre: from its line as far as it was run; else by powers that
-        no axis is likely to exceed."""
+        """Expected time of a level of an axis over that of the centre: from its line if it was run, else by powers that are not exceeded."""
         row = self.row_on_line(axis.name, level)
         if row:
             return row.outcome.wall / self.centre_row.outcome.wall
@@ -122,7 +119,7 @@ class Sweeper:
             row.measured.values["bed_height"] = TimeMean(height)
 
     def run(self, row, most=1.0):
-        """Runs what is not among the rows yet; returns its row. most: share of the budget that it may be expected to take"""
+        """Runs an order that is not among the rows yet; returns its row. most: share of the budget that it is allowed"""
         sweep = self.sweep
         known = sweep.find(row.order, row.kind)
         if known:

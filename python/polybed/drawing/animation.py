@@ -4,8 +4,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib import animation
 
-from polybed.drawing.fields import voidages
-from polybed.drawing.maps import Group, draw_maps
+from polybed.drawing.maps import Group, draw_maps, voidages
 from polybed.drawing.particles import views_of
 from polybed.drawing.style import as_shown, fitted, greatest_fraction, in_plane, shown_height, title_of
 from polybed.files import in_place
@@ -62,10 +61,7 @@ def field_frames(run):
 
 
 def film(run, path, rate=None, progress=None):
-    """Writes the film to a path that ends in .mp4 or .gif.
-
-    progress: called with the number of frames done and in all.
-    """
+    """Writes the film to a path that ends in .mp4 or .gif. progress: called with the numbers of frames done and in all"""
     if count := len(run.particles):
         views, digits = views_of(run, range(count)), digits_of(run.particles.time)
         figure, show = views.figure, lambda step: views.show(step, digits)

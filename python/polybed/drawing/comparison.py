@@ -1,8 +1,5 @@
-"""Two runs of one case beside each other: maps and particles at an instant, mean profiles, what is measured in time; and comparison.html,
-the page of a comparison.json.
-
-The two-fluid model is drawn in full lines, the particles in broken ones, a species in its colour in both.
-"""
+"""Two runs of one case side by side, and comparison.html. The two-fluid model is drawn in full lines, the particles in broken ones, a
+species in its colour in both."""
 
 import shlex
 from pathlib import Path
@@ -12,12 +9,11 @@ import numpy as np
 
 from polybed.drawing import particles
 from polybed.drawing.curves import heights
-from polybed.drawing.fields import fractions
+from polybed.drawing.maps import axes_at, draw_bar, draw_map, fractions, frame, map_size
 from polybed.drawing.history import key
 from polybed.drawing.inversion_scan import commands as scan_command
 from polybed.drawing.inversion_scan import on_ranks
 from polybed.drawing.inversion_scan import tables as scan_tables
-from polybed.drawing.maps import axes_at, draw_bar, draw_map, frame, map_size
 from polybed.drawing.profiles import shown_top
 from polybed.drawing.style import COLOURS, NAMES, PALE, drop_over_weight, length_unit
 from polybed.files import read_json
@@ -25,7 +21,7 @@ from polybed.page import Html, file_name, listing, markup, page, picture, sectio
 from polybed.read import nearest, read, stored_times
 from polybed.folder import title_of_case
 from polybed.runner import words_of
-from polybed.study.compare_report import measure_cells, with_error
+from polybed.study.scores import measure_cells, with_error
 
 LINES = {"tfm": "-", "dem": "--"}
 DOTS = {"tfm": (0, (1, 2)), "dem": (0, (1, 5))}  # of the interface, which no species has a colour for
@@ -38,8 +34,7 @@ def colour(n):
 
 
 def panels_at(runs, time):
-    """What there is to draw at a time: ("map", run, title, values, group) and ("particles", run, title, step, None); the
-    volume fractions of both models on one scale."""
+    """("map", run, title, values, group) and ("particles", run, title, step, None) at a time; fractions of both models on one scale."""
     found, groups = [], []
     for model, run in runs.items():
         step = nearest(run.time, time)
@@ -81,11 +76,7 @@ def draw_instant(runs, time, top):
 
 
 def draw_profiles(runs, means):
-    """Mean profile of each species over the window, with the 95 % interval of that mean as a band. None if no run has stored a
-    profile in the window.
-
-    means: "mean_profiles" of comparison.json
-    """
+    """Mean profile of each species over the window, `mean_profiles` of comparison.json, with the band of its 95 % interval; None without any."""
     species = runs["tfm"].species or runs["dem"].species
     figure, all_axes = plt.subplots(1, len(species), figsize=(1 + 2.6 * len(species), 4.2), sharey=True, squeeze=False,
                                     constrained_layout=True)

@@ -5,7 +5,7 @@ import shlex
 import matplotlib.pyplot as plt
 
 from polybed.cost.report import advice, definitions, runs_of, shares_of
-from polybed.cost.words import AXES, CLOCKS
+from polybed.cost.sweep import AXES, CLOCKS
 from polybed.drawing.style import COLOURS, GREY, NAMES, PALE, fitted, shortened
 from polybed.page import Html, file_name, listing, markup, page, picture, section, source, table, warnings
 from polybed.program import name_of

@@ -6,13 +6,13 @@ from typing import NamedTuple
 import numpy as np
 
 from polybed.drawing.style import FEW_SOLIDS, GREY, drop_over_weight, length_unit, levels, species_line
-from polybed.drawing.units import fitting
+from polybed.texts import fitting
 
 PARTS = 40  # of the time, over each of which a rate is a mean
 STORED = ("kinetic_J", "rotational_J", "elastic_J", "potential_J")
 LEDGER = (*STORED, "dissipated_J", "work_J")
 CARRIED = {"carried_out_J": 1, "carried_in_J": -1}  # there only where particles can leave, or are fed
-# Kinds of profiles: title, unit, and what is drawn besides the species.
+# Kinds of profiles: title, unit, and the curve besides the species.
 KINDS = {"phi": ("volume fraction", "1", "voidage", "voidage"), "u": ("upward velocity", "m/s", "u_fluid", "fluid"),
          "p": ("net pressure", "Pa", "p", "net pressure"), "theta": ("granular temperature", "m2/s2", "", "")}
 
@@ -79,7 +79,7 @@ class Panel:
 
 
 def greatest(arrays):
-    """The greatest magnitude in arrays that may hold what is no number; 0 without any."""
+    """The greatest magnitude in arrays that can contain NaN; 0 without any."""
     return max([0.0] + [float(np.nanmax(np.abs(values))) for values in arrays if np.isfinite(values).any()])
 
 
@@ -137,7 +137,7 @@ def ledger(run):
 
 
 def panels(run):
-    """All that the history of a run holds."""
+    """All panels of the history of a run."""
     history = run.history
     if not len(history.get("time_s", ())):
         return []
@@ -167,8 +167,7 @@ def profile_kinds(run):
 
 
 def profile_panel(run, kind, rows):
-    """A kind of profile of every species and of the fluid at stored times, [time][y] over height; size classes as one, neither velocity nor
-    temperature where a species is absent."""
+    """A kind of profile at stored times, [time][y], of the fluid and each species; no velocity or temperature where it is absent."""
     profiles, (title, unit, fluid, label) = run.profiles, KINDS[kind]
     height, lines = profiles["y_m"], []
     for n, (species, classes) in enumerate(run.kinds.items()):

@@ -3,7 +3,7 @@
 import shlex
 from pathlib import Path
 
-from polybed.drawing.units import fitting, text
+from polybed.texts import fitting, text
 from polybed.page import Html, file_name, listing, page, section, source, table
 from polybed.page import picture as shown_picture
 
@@ -14,7 +14,7 @@ from polybed.drawing.style import COLOURS, GREY, NAMES, PALE
 from polybed.read import read
 from polybed.folder import title_of_case
 from polybed.runner import words_of
-from polybed.study.compare_report import with_error
+from polybed.study.scores import with_error
 from polybed.study.inversion_search import known
 
 

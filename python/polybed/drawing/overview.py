@@ -5,9 +5,8 @@ import numpy as np
 
 from polybed.drawing import particles
 from polybed.drawing.curves import heights, profile_panel
-from polybed.drawing.fields import fractions, thin_apart, voidages
+from polybed.drawing.maps import axes_at, draw_map, draw_scale, fractions, map_size, thin_apart, voidages
 from polybed.drawing.history import draw_panel, key, time_axis
-from polybed.drawing.maps import axes_at, draw_map, draw_scale, map_size
 from polybed.drawing.style import PALE, fitted, length_unit, shown_height, title_of
 from polybed.read import nearest
 
@@ -18,7 +17,7 @@ SUSPENDED = 1.2  # times the top of the dense bed: above that the card, too, sho
 
 
 def draw_profiles(axes, run, time):
-    """Lateral averages against height, at the stored time nearest to that of the maps; the history names the colours."""
+    """Lateral averages against height, at the stored time nearest to the time of the maps; the history names the colours."""
     profiles = run.profiles
     if not profiles or len(profiles["time_s"]) == 0:
         axes.set_axis_off()
@@ -46,7 +45,7 @@ def draw_history(axes, run, time):
 
 
 def layout_of(count, size):
-    """A figure with so many maps of a size in inches: the figure, maps, their colour bars, profiles beside the maps, history below all."""
+    """A figure with so many maps of a size in inches: the figure, maps, their colour bars, profiles next to the maps, history below."""
     width, height = size
     row = LEFT + count * (width + GAP) + PROFILE + RIGHT
     across = max(row, 7.0)

@@ -8,15 +8,14 @@ from matplotlib.lines import Line2D
 
 from polybed.drawing.maps import BARS, GAP, HEAD, HEIGHT, LEFT, RIGHT, axes_at, draw_scale, frame, map_size
 from polybed.drawing.style import COLOURS, fitted, length_unit, title_of
-from polybed.drawing.units import fitting
+from polybed.texts import fitting
 
 MOST = 50_000  # circles in a picture; more take long and hide each other
 EDGE = 1.5  # points, the radius from which a circle has an outline
 
 
 def shown_top(run, steps):
-    """Top of the views, m: a fifth above the highest particle of the steps, and a quarter of the width, so that a few
-    particles on a wide floor are not a line; never above the column."""
+    """Top of the views, m: a fifth above the highest particle, at least a quarter of the width, never above the column."""
     height = run.size[1]
     tops = [np.max(step.position[:, 1] + step.radius) for step in map(run.particles.__getitem__, steps) if len(step)]
     return min(max(1.2 * max(tops), 0.25 * run.size[0]), height) if tops and max(tops) > 0 else height
@@ -76,8 +75,7 @@ def speed(step):
 
 
 def fastest(steps):
-    """Upper end of the scale of speeds, mm/s, of two digits, and whether some are beyond it: the fastest 1 % of a step
-    may be, so that a few of them do not make all others look alike."""
+    """Upper end of the scale of speeds, mm/s, two digits, and whether some exceed it: the fastest 1 % of a step can."""
     ends = [(float(np.quantile(values, 0.99)), float(values.max())) for values in (speed(s) for s in steps if len(s))]
     most = max([1e-3] + [end for end, _ in ends])
     digit = 10.0 ** (np.floor(np.log10(most)) - 1)
@@ -102,7 +100,7 @@ def speed_bar(axes, end, beyond):
 
 
 class Views:
-    """Two views, by species and by speed, whose particles can be exchanged for those of another step. axes: of both, above those of keys"""
+    """Two views, by species and by speed, whose particles can be exchanged for another step. axes: of both, above those of keys"""
 
     def __init__(self, run, steps, axes, keys, top):
         self.run, self.axes, self.drawn, self.figure, self.title = run, axes, [], axes[0].figure, None

@@ -1,4 +1,4 @@
-"""Lateral means on the vertical axis: at one time beside each other, and of each species over height and time."""
+"""Lateral means on the vertical axis: at one time side by side, and of each species over height and time."""
 
 import matplotlib.pyplot as plt
 import numpy as np

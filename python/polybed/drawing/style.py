@@ -1,6 +1,6 @@
 """What all pictures share: colours, units, names, and the plane and the height that are shown.
 
-Colours of the species are those of Okabe and Ito (2008), which people with any kind of colour vision tell apart; maps
+Colours of the species after Okabe and Ito (2008), distinct for any kind of colour vision; maps
 of one sign are viridis and cividis, maps of two signs red and blue, of equal lightness on both sides.
 """
 
@@ -16,7 +16,7 @@ from polybed.quantities import LEVELS
 from polybed.folder import case_of, title_of_case
 
 COLOURS = ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9"]
-NAMES = {"tfm": "two-fluid", "dem": "particles"}  # of the models, beside each other
+NAMES = {"tfm": "two-fluid", "dem": "particles"}  # of the models, side by side
 LINES = ["-", "--", "-."]  # beyond six species the colours repeat with another line
 LEVEL_LINES = ["--", ":", "-.", (0, (5, 1, 1, 1, 1, 1))]  # of levels in the bed
 INTERFACE = "interface_m"  # between two species; three have more than one
@@ -122,8 +122,7 @@ def shortened(text):
 
 
 def fitted(title, figure, size):
-    """A title that fits above a figure, in letters of a size in points. The text after the name of the case goes to a second line if one
-    line is too long; a name that is too long is cut."""
+    """A title that fits above a figure, in letters of a size in points: in two lines if need be, a name that is too long cut."""
     letters = int(figure.get_figwidth() * 72 / (0.56 * size))  # of the mean width of DejaVu Sans
     name, gap, rest = title.partition("   ")
     if len(title) <= letters or not gap:

@@ -6,16 +6,15 @@ from pathlib import Path
 
 import numpy as np
 
-from polybed.arguments import parser_of, whole
+from polybed.ending import DONE, NUMBERS, WRONG_CASE, StudyError, answer, guarded, parser_of, whole
 from polybed.fit import errors
 from polybed.fit.fitting import Problem
-from polybed.fit.page import COLUMNS, page, write_errors
+from polybed.fit.errors import COLUMNS, page, write_errors
 from polybed.fit.rows import read_points
 from polybed.runner import answer_of
 from polybed.study.output import draw, remark, taken, write_record
 from polybed.study.cases import laws_of
-from polybed.ending import DONE, NUMBERS, WRONG_CASE, StudyError, answer, guarded
-from polybed.tables import text_table
+from polybed.texts import text_table
 
 INTERVAL = (2.5, 97.5)  # per cent of the draws
 LARGE_ERROR = 10  # per cent, mean of a fit: several times what the forms have on resolved flow
@@ -123,7 +122,7 @@ def fit(given, folder):
     record = {"filetype": "polybed drag fit", "version": 1, **about, "law": str(folder / "law.json"), "constants": constants,
               "published": problem.published, "interval": interval_of(problem, drawn), "errors": summaries, "band": band,
               "from_constants": band_of_draws(problem, drawn), "guard_answers_by": float(off),
-              "constraints": {"greatest_violation": broken, "sum_rule": sum_rule(points, nets, given.form)}}
+              "constraints": {"greatest_violation": broken, "sum_rule": sum_rule(points, nets)}}
     bands = partition_bands(points, f"file:{folder / 'law.json'}")
     write_law(folder / "law.json", law_file(given.form, constants, band=band, partition_bands=bands, fit=about))
     (folder / "accuracy.md").write_text(page(record), encoding="utf-8")
@@ -131,9 +130,8 @@ def fit(given, folder):
     return record
 
 
-def sum_rule(points, nets, form):
-    """Greatest relative departure of sum x_j n_j/y_j^2 from the mean that the law has, n_mean = f_mean/eps; an identity of both forms, so
-    rounding. None without mixtures."""
+def sum_rule(points, nets):
+    """Greatest departure of sum x_j n_j/y_j^2 from the law's mean, f_mean/eps: rounding, as both forms keep it. None without mixtures."""
     worst = None
     for p, net in zip(points, nets):
         if len(net) < 2:

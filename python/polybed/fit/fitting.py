@@ -1,4 +1,4 @@
-"""Least squares of relative errors for the constants of a form, with constraints; what is left out or drawn anew.
+"""Least squares of relative errors for the constants of a form, with constraints, also with rows left out or drawn anew.
 
 Constants stay above 0, as logarithms of their ratio to the published ones. The limits and the sum rule are identities of both forms.
 That f is above 0, and does not fall with Re or with the solids, is asked for on a grid of voidages and Reynolds numbers; that every

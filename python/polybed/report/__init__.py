@@ -1,1 +1,1 @@
-"""The page of a run, report.html: one file that stands alone, made of what the run directory holds."""
+"""The page of a run, report.html: one file that needs no other, made from the run directory."""

@@ -2,14 +2,13 @@
 
 import numpy as np
 
-from polybed.drawing.fields import stored_maps
-from polybed.drawing.maps import outline, walls_of
+from polybed.drawing.maps import outline, stored_maps, walls_of
 from polybed.drawing.style import COLOURS, FEW_SOLIDS, around_axis, as_shown, faces_across, length_unit
-from polybed.drawing.units import fitting
+from polybed.texts import fitting
 from polybed.particles import step_shown
 from polybed.read import kinds_among
 from polybed.folder import case_of
-from polybed.report.pack import EMPTY, changes, levels, packed, plain_numbers, thinned
+from polybed.report.series import EMPTY, changes, levels, packed, plain_numbers, thinned
 
 MOST_CELLS = 40_000  # of one map; a finer one is averaged
 MOST_LEVELS = 24_000_000  # of all maps together: bytes before they are compressed
@@ -148,8 +147,7 @@ def circle_in(size, diameter, height):
 
 
 def opening_of(run):
-    """The rim of the opening in the middle of the bottom, as a closed line: of a slot as deep as the column or, in a column of three
-    dimensions, of a round hole; nothing without one."""
+    """The rim of the opening in the bottom as a closed line: of a slot as deep as the column, in 3-D of a round hole; [] without one."""
     case, size = case_of(run.record), run.particles.size
     width = case.get("dem", {}).get("opening")
     if not width:

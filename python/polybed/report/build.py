@@ -7,7 +7,7 @@ from pathlib import Path
 
 from polybed import page
 from polybed.drawing.style import length_unit
-from polybed.drawing.units import text
+from polybed.texts import text
 from polybed.ending import made
 from polybed.files import contents_of, in_place
 from polybed.read import Snapshot

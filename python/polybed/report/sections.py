@@ -6,7 +6,7 @@ import re
 import shlex
 from collections import Counter
 
-from polybed.drawing.units import text
+from polybed.texts import text
 from polybed.files import finite, whole_lines
 from polybed.page import Html, listing, markup, source, table
 from polybed.folder import case_of, velocity_of
@@ -41,7 +41,7 @@ def rows_of_steps(lines):
 
 
 def limits(run):
-    """What limited the steps: shares of the two-fluid model's steps, or the step of particles beside its next limits."""
+    """What limited the steps: shares of the two-fluid model's steps, or the step of particles with its next limits."""
     path = run.directory / "steps.csv"
     if path.exists():
         seconds, steps = limits_of_steps(path)

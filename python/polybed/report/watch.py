@@ -1,8 +1,5 @@
-"""Serves a page that follows a run, on the loopback address: what `polybed watch` hands over to.
-
-The page is report.html with the progress above it; it asks for new data as long as the run goes on. The server ends with the run, once
-a browser that looks has had the last state.
-"""
+"""Serves report.html with the progress above it on the loopback address: what `polybed watch` hands over to. The page asks for new data as
+long as the run goes on; the server ends with the run, once a browser has had the last state."""
 
 import argparse
 import os
@@ -14,7 +11,7 @@ from collections import Counter
 from http import HTTPStatus
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 
-from polybed.drawing.units import text
+from polybed.texts import text
 from polybed.ending import DONE, guarded
 from polybed.files import FAULTS, contents_of, opened
 from polybed.page import markup, section
@@ -26,7 +23,7 @@ from polybed.study.output import writes
 
 LOOPBACK = "127.0.0.1"
 RENEWED = 2.0  # s between two looks at the run
-SHARE = 0.1  # of the time, at most, that looking at the run may take
+SHARE = 0.1  # greatest share of the time for looking at the run
 LAST_LOOK = 5.0  # s that the server waits, after the end, for a browser to take the last state
 KNOWN = re.compile(r"(-1|[0-9]{1,9})?")  # version of the state that a page has, -1 of none
 TAIL = 64_000  # bytes of steps.csv that are read for what limits now

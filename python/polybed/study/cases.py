@@ -6,7 +6,7 @@ from polybed.folder import velocity_of
 from polybed.overrides import keys_of_case, toml
 from polybed.runner import answer_of, words_of
 
-FREE = ("tfm.", "dem.", "output.")  # tables that may differ between runs of one case
+FREE = ("tfm.", "dem.", "output.")  # tables that can differ between runs of one case
 
 
 class Case:
@@ -59,11 +59,8 @@ def roles_in_both_models():
 
 
 def differences(first, second, in_both):
-    """The keys in which two resolved cases differ, each with its value in both, "-" where a case has none. Left out are those that may:
-    [tfm], [dem], [output], run.until, the title, and a role of [effects] that acts in one model alone.
-
-    in_both: roles that act in both models
-    """
+    """The keys in which two resolved cases differ, each with both values, "-" for none. Left out are [tfm], [dem], [output], run.until, the
+    title, and a role of [effects] that is not in both models."""
     def may_differ(key):
         if key.startswith("effects."):
             return key.removeprefix("effects.") not in in_both

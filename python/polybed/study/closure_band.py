@@ -2,7 +2,7 @@
 
 A band is what the law's errors on lattice-Boltzmann rows leave open, as root mean squares of ln(n_law/n_data): of the force on one size, of
 the factor that all sizes of a packing have in common, and of the ratio of two sizes. That of a law of the menu is in closure_bands.json,
-which `python3 -m polybed.study.closure_band ROWS...` makes of tests/data/lbm; that of a fitted law is in its file.
+which `python3 -m polybed.study.closure_band ROWS...` makes of tests/data/lbm; the band of a fitted law is in its file.
 """
 
 import json

@@ -1,10 +1,7 @@
-"""What the uncertainty of a drag law means for an answer: what `--closure-uncertainty` of `polybed inversion` and of `polybed tfm` hands
-over to.
+"""The band of an answer from the band of a drag law: what `--closure-uncertainty` of `polybed inversion` and of `polybed tfm` hands over to.
 
-Its argument is a JSON object: what the command line says. The factor that all sizes have in common and the ratio of the sizes are moved apart,
-each by the law's band, and the answer is found again: by force balance, or by runs. What they change is added in squares. The answer with
-both moved at once is compared with the sum of what each changes.
-"""
+Its argument is a JSON object: what the command line says. The common factor and the ratio of the sizes are moved apart, each by the law's
+band, and the answer is found again, by force balance or by runs. The changes are added in squares, and compared with both moved at once."""
 
 import json
 import math
@@ -63,8 +60,7 @@ class Bed:
         return found
 
     def moved(self, directions, signs, path):
-        """Override by which a case takes the law moved by so many bands in each direction, written to a file. A factor is moved by its
-        logarithm, so that plus and minus undo each other."""
+        """Override for the law moved by so many bands in each direction, a factor by its logarithm: plus and minus undo each other."""
         common = sum(math.log1p(directions[name][0]) * sign for name, sign in signs.items())
         tilt = sum(directions[name][1] * sign for name, sign in signs.items())
         return f'effects.drag="{write_moved(self.law, math.exp(common), tilt, path)}"'

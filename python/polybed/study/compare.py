@@ -4,22 +4,20 @@ import os
 import shlex
 from pathlib import Path
 
-from polybed.arguments import parser_of
-from polybed.drawing.units import duration
+from polybed.ending import DONE, FILE, WRONG_CASE, StudyError, answer, guarded, parser_of
+from polybed.texts import duration
 from polybed.files import contents_of, read_json
 from polybed.folder import drift_lines, read_record
 from polybed.program import name_of
-from polybed.study import compare_report as report
 from polybed.study.cases import Case, differences, roles_in_both_models
-from polybed.ending import DONE, FILE, WRONG_CASE, StudyError, answer, guarded
 from polybed.study.measured import measured
 from polybed.study.output import draw, remark, taken, write_record
 from polybed.runner import answer_of, flags, has_checkpoint, ranks, run, words_of
-from polybed.study.scores import MODELS, add_inversion, compare
+from polybed.study.scores import MODELS, add_inversion, compare, plain, table
 
 
 def record_of(directory, model):
-    """A run's record. Raises StudyError if it is none of this model's."""
+    """A run's record. Raises StudyError if another model made it."""
     path = Path(directory) / "run.json"
     if not path.exists():
         raise StudyError(FILE, f"{directory}: no run (it has no run.json)")
@@ -38,7 +36,7 @@ def refuse_difference(name, text, other_name, other):
 
 
 def refuse_before_running(options, case):
-    """Refuses what one of the models to be run cannot, before the other takes its hours, and a given run that is none of this case."""
+    """Refuses a case that one of the models cannot run, before the other takes its hours, and a given run of another case."""
     for model in MODELS:
         given = getattr(options, model)
         if given:
@@ -65,8 +63,7 @@ def forecast(options, case):
 
 
 def read_scan(options, case):
-    """(inversion.json of a scan of the case by both models, its path); None without one. The scan by default may be of the case as it was
-    before."""
+    """(inversion.json of a scan of the case by both models, its path), or None. The default scan can be of an earlier case."""
     path = Path(options.inversion or Path("runs") / f"{name_of(case.path)}-inversion") / "inversion.json"
     if not path.exists():
         if options.inversion:
@@ -100,14 +97,14 @@ def compare_runs(options, case, directories):
             add_inversion(found, *scan, case.velocity)
     states = {model: record["state"] for model, record in records.items()}
     found["warnings"] += [f"{model}: the run is not done ({state})" for model, state in states.items() if state != "done"]
-    plain = report.plain(found, case, options.output, {model: (directories[model], records[model]) for model in MODELS})
+    record = plain(found, case, options.output, {model: (directories[model], records[model]) for model in MODELS})
     path = Path(options.output) / "comparison.json"
-    text = write_record(path, plain)
+    text = write_record(path, record)
     made_here = not (options.tfm or options.dem)
     longer = made_here and (found["least_time"] or any(drift_lines(run.record) for run in runs))
     until = max(2 * records["tfm"]["time_s"], found["least_time"])
     more = f"\nto go on: {command_to_go_on(options, until)}" if longer else ""
-    answer(text if options.json else f"{report.table(plain)}\n{path}{more}")
+    answer(text if options.json else f"{table(record)}\n{path}{more}")
     if options.picture:
         draw(path, "page", options.json or options.quiet)
 

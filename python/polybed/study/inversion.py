@@ -21,7 +21,7 @@ from polybed.study.output import draw, taken, write_record
 from polybed.runner import flags, has_checkpoint, ranks, run, words_of
 from polybed.study.stress_uncertainty import moved_table
 
-RAMP_SHARE = 0.02  # of a run, in which the velocity goes from that of the run before to its own: far from the window, the last quarter
+RAMP_SHARE = 0.02  # of a run, in which the velocity leaves that of the run before: far from the window, the last quarter
 SURFACES = ("hamaker_constant", "cohesion_gap", "asperity_radius")  # keys that a choice of cohesion sets
 DIGITS = 10  # of a hash in the name of a folder
 
@@ -56,8 +56,7 @@ class RunsOfModel:
         return Mean(made["centre_difference"], made["error"])
 
     def start_of(self, velocity, source):
-        """What a run begins with. One that goes on from another has its velocity at first, which its fields are of, and its integrator,
-        which would else be chosen by the velocity."""
+        """Overrides for the start. A run that continues another begins with its velocity, and keeps its integrator."""
         if source is None:
             return [f"inlet.superficial_velocity={velocity!r}"]
         checkpoint = os.path.join(self.runs[source]["directory"], "checkpoint.h5")
@@ -78,14 +77,13 @@ def say(line):
 
 
 def finished(directory):
-    """Whether a folder holds a finished run; its name says of which case."""
+    """Whether a folder contains a finished run; its name says of which case."""
     path = Path(directory) / "run.json"
     return path.exists() and read_record(path)["state"] == "done"
 
 
 def measure(directory):
-    """What a finished run has measured, as inversion.json has it, and its integrator. Warnings say what is not steady; the interface is that
-    of the mean profile of the window."""
+    """What a finished run has measured, as in inversion.json, and its integrator. The interface is from the mean profile."""
     (begin, end, _), [run], _ = means_of(directory)
     b, height = (run.means.get(name) for name in ("centre_difference", "bed_height_m"))
     if b is None or height is None or b.error is None:
@@ -103,8 +101,7 @@ def measure(directory):
 
 
 def choice_of(keys):
-    """What was chosen for a case that leaves effects to the program, as overrides: every run of a scan has the same, though the choice
-    follows from the velocity. keys: of the resolved case"""
+    """Effects chosen for the case, as overrides: the same for every run, though the choice follows from the velocity. keys: of the case"""
     laws, chosen = keys["effects"], keys.get("chooser", {}).get("chosen", [])
     surfaces = SURFACES if "cohesion" in chosen and "cohesion" in laws else ()  # what cohesion was weighed with
     return ([f'effects.{role}="{laws.get(role, "none")}"' for role in chosen]
@@ -112,7 +109,7 @@ def choice_of(keys):
 
 
 def scan_of(request, table, model):
-    """The scan by a model; with the stress uncertainty those of the two-fluid model again, its table moved both ways."""
+    """The scan by a model; with the stress uncertainty two more by the two-fluid model, its table moved both ways."""
     digest = hash_of(read_bytes(table)) if table else ""
     scan = RunsOfModel(request, model, model, digest, request["overrides"]).scan()
     if request["stress_uncertainty"] and model == "tfm":

@@ -58,8 +58,7 @@ def mixed_interval(scan):
 
 
 def stress_band(scan):
-    """Between which velocities a scan's answer lies with its table moved by one standard error, m/s; None unless it was moved and each
-    of the three has found one."""
+    """Velocities between which the answer lies with the table moved by a standard error, m/s; None unless all three were found."""
     velocities = [of.found.velocity for of in (scan, *scan.moved)]
     return (min(velocities), max(velocities)) if scan.moved and None not in velocities else None
 
@@ -126,8 +125,7 @@ def finding(scan, species):
 
 
 def beside_lines(beside, scans):
-    """What stands beside the scans: from the force balance, which their runs may contradict, and from others. beside: as
-    `polybed inversion --json` has it"""
+    """Other velocities: the force balance, which runs can contradict, and published ones. beside: as in `polybed inversion --json`."""
     def between(what, values):
         return [f"{what}: {' to '.join(map(mm, values))} mm/s"] if values else []
 

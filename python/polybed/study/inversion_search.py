@@ -1,5 +1,4 @@
-"""The search for the inversion velocity by runs: at which velocities, each continued from which other run, and when it ends. What a
-run is, its caller knows."""
+"""The search for the inversion velocity by runs: velocities, which run each continues, and when it ends."""
 
 import math
 from dataclasses import dataclass
@@ -96,8 +95,7 @@ class Search:
         return self.low.velocity + share * (self.high.velocity - self.low.velocity)
 
     def inside(self, velocity):
-        """A point in the bracket; one that is not certain is repeated from the other end. What counts then is the mean of both runs, as
-        uncertain as half their difference at least."""
+        """A point in the bracket. An uncertain one is repeated from the other end: the mean of both, at least half their difference off."""
         ends = [self.low.run, self.high.run]
         if velocity - self.low.velocity > self.high.velocity - velocity:
             ends.reverse()

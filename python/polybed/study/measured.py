@@ -1,5 +1,4 @@
-"""What runs have measured: columns of their histories, and what `polybed measure` says: means over a window of time with the half-widths
-of their 95 % intervals."""
+"""What runs have measured: columns of histories, and the means of `polybed measure` with their 95 % intervals."""
 
 from typing import NamedTuple
 
@@ -46,7 +45,7 @@ def centre_column(species):
 
 
 def within(time, values, window):
-    """The part of a series in the window, whose end may lie beyond all times."""
+    """The part of a series in the window, whose end can lie beyond all times."""
     slack = ROUNDING * min([window.end, *time[-1:]])
     return values[(time >= window.begin - slack) & (time <= window.end + slack)]
 
@@ -74,11 +73,8 @@ class Means(NamedTuple):
 
 
 def means_of(directory, beside=None, begin=None, slabs=None):
-    """Means over the last quarter of the time that runs have, or what the marginal standard error rule leaves of it. Raises FormatError or
-    ProgramError if there is none.
-
-    begin: of another window up to the end, s; slabs: number of those on which the profiles are laid first
-    """
+    """Means over the last quarter, or what the marginal standard error rule leaves of it. Raises FormatError or ProgramError without any.
+    begin: of another window up to the end, s; slabs: number of those on which the profiles are laid first"""
     options = {"--beside": beside, "--begin": begin, "--slabs": slabs}
     words = [word for name, value in options.items() if value is not None for word in (name, value)]
     found = answer_of("measure", directory, *words)

@@ -1,5 +1,4 @@
-"""What a study leaves and says: its record, whole or not at all, a picture of it, and remarks; and its folder, which the program marks as one
-of polybed and locks."""
+"""What a study leaves: its record, pictures and remarks, and its folder, which the program marks and locks."""
 
 import contextlib
 import fcntl
@@ -60,8 +59,7 @@ def taken(folder):
 
 
 def writes(folder):
-    """Whether a process writes into a run directory: it has the mark locked as long as it lives. The shared lock by which this is asked
-    is given back at once."""
+    """Whether a process writes into a run directory: it keeps the mark locked. The lock that asks is given back at once."""
     with contextlib.suppress(*FAULTS), opened(folder / MARK) as mark:
         try:
             fcntl.flock(mark, fcntl.LOCK_SH | fcntl.LOCK_NB)

@@ -1,15 +1,11 @@
-"""What the standard errors of a table of the solids stress mean for a bed: what `polybed tfm --stress-uncertainty` hands over to.
-
-Its argument is a JSON object: what the command line says. The case is run with its table, and with the table at plus and minus one standard
-error; stress_uncertainty.json has the band of bed height and centre difference.
-"""
+"""What the standard errors of a table of stresses mean for a bed: what `polybed tfm --stress-uncertainty` hands over to, with what the
+command line says as a JSON object. The case is run with its table, and with the table at plus and minus one standard error."""
 
 import json
 import os
 import sys
 from pathlib import Path
 
-from polybed.calibration.fit import Table
 from polybed.files import in_place
 from polybed.solids_table import read_table
 from polybed.study.cases import Case
@@ -25,8 +21,7 @@ MOVED = ("p_ratio", "mu_ratio", "p_bed")  # pressures and viscosities of a table
 def moved_table(table, sigma, path):
     """Writes a table whose pressures and viscosities are off by a number of their standard errors, and returns what to set in a case so that
     it is read. Raises StudyError if the table has no errors, or if its pressure would fall with the solids fraction."""
-    given = read_table(table)
-    moved = Table({name: given[name] for name in given.names()}, dict(given.attributes))
+    moved = read_table(table)
     errors = [name for name in MOVED if f"{name}_se" in moved.arrays]
     if not errors:
         raise StudyError(WRONG_CASE, f"{table}: no p_bed_se: nothing tells how uncertain p_bed is")
@@ -48,8 +43,7 @@ def require_rising(table, sigma, moved):
 
 
 def late_means(directory):
-    """Means of bed height and normalised centre difference over the window in which runs are compared, by name; None for what a run has
-    not."""
+    """Means of bed height and centre difference over the window of comparisons, by name; None for what a run lacks."""
     means = means_of(directory).runs[0].means
     return {name: means[name].mean if name in means else None for name in ("bed_height_m", "centre_difference")}
 
@@ -62,7 +56,7 @@ def band(name, unit, minus, table, plus):
 
 
 def run_case(request, case):
-    """The case as it is; the answer of the command is that of this run."""
+    """The case as it is, which answers for the command."""
     run("tfm", request["case"], *words_of(case.overrides), "-o", request["directory"], *([] if request["picture"] else ["--no-picture"]),
         *flags(request, "resume", "force", "permissive", "quiet", "json"), answers=True)
 

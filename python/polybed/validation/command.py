@@ -5,16 +5,14 @@ import math
 import shlex
 from pathlib import Path
 
-from polybed.arguments import parser_of, whole
-from polybed.drawing.units import duration
-from polybed.ending import DONE, FILE, NUMBERS, WRONG_CASE, StudyError, answer, guarded
+from polybed.ending import DONE, FILE, NUMBERS, WRONG_CASE, StudyError, answer, guarded, parser_of, whole
+from polybed.texts import duration, text_table
 from polybed.folder import read_record
 from polybed.files import put_text
 from polybed.program import finished
 from polybed.runner import commit_and_build, flags, has_checkpoint, run, sources, words_of
 from polybed.study.cases import Case
 from polybed.study.output import json_text, remark, taken
-from polybed.tables import text_table
 from polybed.validation import report
 from polybed.validation.entries import MODELS, NO_RUN, entry_named, folder, names
 from polybed.validation.numbers import UNDECIDED, Undecided, inversion_interval, inversion_of, measured_number, of_seeds, verdict

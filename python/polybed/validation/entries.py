@@ -1,7 +1,5 @@
-"""Entries: folders of cases/validation, each with a bed that was measured and `validation.toml`, which says what is compared.
-
-Measured numbers come from CSV files, a case script or the case itself. No entry contains a number of a model.
-"""
+"""Folders of cases/validation, each with a bed that was measured and `validation.toml`, which says what is compared. Measured numbers come
+from CSV files, a case script or the case itself."""
 
 import importlib.util
 import tomllib
@@ -65,7 +63,7 @@ class Entry:
 
 
 def folder():
-    """cases/validation of the sources, or that installed beside the program. Raises StudyError."""
+    """cases/validation of the sources, or installed with the program. Raises StudyError."""
     cases = cases_folder()
     if cases is None or not (cases / "validation").is_dir():
         raise StudyError(FILE, "there is no folder cases/validation beside the program: install polybed with its cases")

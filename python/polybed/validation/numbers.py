@@ -1,7 +1,4 @@
-"""Both sides of a comparison: a measured number and a number of a run, each with its 95 % interval; and the verdict.
-
-Means, intervals and windows are those of polybed.study.
-"""
+"""Both sides of a comparison, a measured number and the number of a run, each with its 95 % interval; and the verdict."""
 
 import math
 from typing import NamedTuple
@@ -148,8 +145,7 @@ def of_seeds(entry, compare, directories):
 
 
 def joint_interval(measured, model):
-    """Half-width in which the difference of both lies with 95 %. A single run is one more repeat of an experiment that has been
-    repeated. None if one side has no interval."""
+    """95 % half-width of the difference; a single run is one more repeat of a repeated experiment. None if one is unknown."""
     if measured.error is None or model.error is None:
         return None
     one_more = measured.error * math.sqrt(measured.repeats) if measured.repeats > 1 and model.repeats == 1 else 0.0

@@ -5,11 +5,11 @@ import json
 from polybed.files import FormatError, put_text, read_json, read_text
 from polybed.page import Html, markup, page, section, source
 from polybed.page import table as html_table
-from polybed.tables import markdown_table
+from polybed.texts import markdown_table
 from polybed.validation.numbers import INSIDE, OUTSIDE, UNDECIDED
 
 HEAD = ("bed", "run", "model", "quantity", "measured", "of the model", "joint", "verdict", "CPU s")
-RECORDED = "recorded.json"  # numbers of models: beside the entries, never in them
+RECORDED = "recorded.json"  # numbers of models: next to the entries, never in them
 BEGIN, END = "<!-- polybed validate --record: begin -->", "<!-- polybed validate --record: end -->"
 NEGLIGIBLE = 1e-6  # of a value: an interval of a bed that stands still
 VERDICTS = (INSIDE, OUTSIDE, UNDECIDED)
@@ -56,8 +56,7 @@ def read_recorded(folder):
 
 
 def merged(blocks, new):
-    """Recorded blocks, those of the same entry, model and runs replaced, and by one of all runs those of some; in the order of their
-    names."""
+    """Recorded blocks with those of the same entry, model and runs replaced; one of all runs replaces those of some. Sorted."""
     whole = {(block["entry"], block["model"]) for block in new if not block.get("runs")}
     kept = [block for block in blocks if (block["entry"], block["model"]) not in whole]
     found = {(block["entry"], block["model"], *block.get("runs", [])): block for block in (*kept, *new)}
@@ -82,7 +81,7 @@ def with_section(text, blocks):
 
 
 def write_recorded(folder, document, new):
-    """Adds results to the record beside the entries and renews the document. Returns the paths."""
+    """Adds results to the record next to the entries and renews the document. Returns the paths."""
     blocks = merged(read_recorded(folder), new)
     text = with_section(read_text(document), blocks)
     record = json.dumps({"filetype": "polybed validation", "version": 1, "blocks": blocks}, ensure_ascii=False, allow_nan=False, indent=1)

@@ -15,7 +15,7 @@ sys.path.insert(0, sys.argv.pop(1))
 
 from polybed import runner  # noqa: E402
 from polybed.errors import ProgramError  # noqa: E402
-from polybed.study import cases, compare_report, scores  # noqa: E402
+from polybed.study import cases, scores  # noqa: E402
 from polybed.study.scores import add_inversion  # noqa: E402
 from stored_run import Written  # noqa: E402
 
@@ -242,7 +242,7 @@ class Report(unittest.TestCase):
                   "git_commit": "2"}
         case = type("Case", (), {"git_commit": "3", "path": "case.toml", "overrides": ["bed.seed=2"]})
         found = compare(at_rest(0.03, 0.066), at_rest(0.03, 0.06))
-        plain = compare_report.plain(found, case, "out", {"tfm": ("here", record), "dem": ("there", record)})
+        plain = scores.plain(found, case, "out", {"tfm": ("here", record), "dem": ("there", record)})
         self.assertIs(plain["scores"]["e_H"]["reached"], False)
         self.assertEqual(plain["scores"]["order"], {"tfm": {"species": "coarse", "certain": True},
                                                     "dem": {"species": "coarse", "certain": True}, "same": True})
@@ -251,7 +251,7 @@ class Report(unittest.TestCase):
         self.assertIsNone(plain["models"]["dem"]["wall_s"])  # of a record of before it was kept
         self.assertEqual(plain["overrides"], ["bed.seed=2"])
         self.assertNotIn("inversion_file", plain)
-        self.assertIn("goal 0.05: missed", compare_report.table(plain))
+        self.assertIn("goal 0.05: missed", scores.table(plain))
 
 
 if __name__ == "__main__":

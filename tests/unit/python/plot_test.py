@@ -22,7 +22,7 @@ sys.path.insert(0, PACKAGE)
 import matplotlib.pyplot as plt
 import polybed
 from polybed import plot
-from polybed.drawing import animation, curves, fields, history, maps, overview, particles, profiles, style
+from polybed.drawing import animation, curves, history, maps, overview, particles, profiles, style
 from polybed.report import beds
 
 
@@ -58,16 +58,16 @@ class Style(SampleRun):
 
     def test_one_scale_for_all_species(self):
         most = max(self.sample.phi_fine[4].max(), self.sample.phi_coarse[4].max())
-        group = fields.fractions(self.sample, 4)
+        group = maps.fractions(self.sample, 4)
         self.assertEqual(group.limits, (0, most))
         self.assertEqual([name for name, _ in group.maps], ["fine", "coarse"])
-        self.assertEqual([one.limits for one in fields.thin_apart(group)], [(0, most)])
+        self.assertEqual([one.limits for one in maps.thin_apart(group)], [(0, most)])
 
     def test_what_is_suspended_thinly_has_a_scale_of_its_own(self):
         """The fine species alone, at a hundredth of what is stored: 0.003 at most, over the whole height of the column."""
         bed, silt = self.sample.phi_fine[4], np.full_like(self.sample.phi_fine[4], 0.003)
         group = maps.Group("solids fraction", "viridis", (0, float(bed.max())), [("silt", silt), ("bed", bed)])
-        apart = fields.thin_apart(group)
+        apart = maps.thin_apart(group)
         self.assertEqual([([name for name, _ in one.maps], one.limits) for one in apart], [(["bed"], group.limits), (["silt"], (0, 0.003))])
         run = types.SimpleNamespace(species=["silt", "bed"], faces=self.sample.faces, field=lambda name: [{"phi_silt": silt, "phi_bed": bed}[name]])
         self.assertEqual(style.shown_height(run, [0]), self.sample.faces["y"][-1], "up to where the silt reaches")
@@ -82,7 +82,7 @@ class Style(SampleRun):
                 unittest.mock.patch.object(self.sample, "field", lambda name: {4: stored[name]}), \
                 unittest.mock.patch.object(self.sample, "fields_at", lambda _, names: {name: stored[name] for name in names}):
             self.assertEqual(self.sample.kinds, {"sand": ["sand.1", "sand.2"]})
-            (name, drawn), = fields.fractions(self.sample, 4, classes=False).maps
+            (name, drawn), = maps.fractions(self.sample, 4, classes=False).maps
         np.testing.assert_array_equal(drawn, sum(stored.values()))
 
     def test_each_of_many_species_looks_different(self):
@@ -99,7 +99,7 @@ class Style(SampleRun):
 
 class Fields(SampleRun):
     def test_velocities_have_a_symmetric_scale_with_units(self):
-        group = fields.velocities(self.sample, 4)
+        group = maps.velocities(self.sample, 4)
         self.assertEqual(group.limits[0], -group.limits[1])
         # the sample's fluid rises with its height in m/s: 0.1983 m/s in the topmost cell, two digits of it
         self.assertEqual(group.limits[1], 200)
@@ -107,7 +107,7 @@ class Fields(SampleRun):
 
     def test_maps_keep_the_aspect_of_the_column(self):
         with plt.rc_context(style.STYLE):
-            figure = fields.draw(self.sample, 4)
+            figure = maps.draw(self.sample, 4)
         drawn = [axes for axes in figure.axes if axes.get_xlabel().startswith("x")]
         self.assertEqual([axes.get_title() for axes in drawn], ["fine", "coarse", "fluid", "fluid"])
         for axes in drawn:
@@ -228,7 +228,7 @@ class AroundAxis(SampleRun):
         self.sample = polybed.read(self.directory)
 
     def test_pictures_and_page_go_from_wall_to_wall(self):
-        figure, meshes = maps.draw_maps(self.sample, [fields.fractions(self.sample, 4)], "", 0.14)
+        figure, meshes = maps.draw_maps(self.sample, [maps.fractions(self.sample, 4)], "", 0.14)
         axes = figure.axes[0]
         self.assertEqual(axes.get_xlim(), (-60, 60))
         self.assertTrue(axes.get_xlabel().startswith("r"))

@@ -12,7 +12,7 @@ from report_test import SampleRun, unpacked  # which adds the package to the pat
 
 import polybed
 from polybed.drawing import curves
-from polybed.report import beds, pack
+from polybed.report import beds, series
 
 
 def renamed(text):
@@ -43,7 +43,7 @@ class SizeClasses(SampleRun):
         high = maps["maps"][0]["high"]
         exact = (self.sample.field("phi_sand.1")[:] + self.sample.field("phi_sand.2")[:])[:, : maps["ny"]]
         # the scale is that of the later half: what is denser at the start has its upper end
-        np.testing.assert_allclose(levels / (pack.EMPTY - 1) * high, np.minimum(exact, high), atol=0.501 * high / (pack.EMPTY - 1))
+        np.testing.assert_allclose(levels / (series.EMPTY - 1) * high, np.minimum(exact, high), atol=0.501 * high / (series.EMPTY - 1))
 
     def test_profiles(self):
         fractions = data_of(self.page())["profiles"]["charts"][0]

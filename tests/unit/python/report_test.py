@@ -23,8 +23,8 @@ sys.path.insert(0, PACKAGE)
 from report_pages import EVIL, Page, add_case, data_of
 
 import polybed
-from polybed.drawing import curves, units
-from polybed.report import beds, build, pack, sections
+from polybed.drawing import curves
+from polybed.report import beds, build, sections, series
 
 MOST_BYTES = 10e6  # of a page
 
@@ -126,8 +126,8 @@ class Maps(SampleRun):
         maps = data_of(self.page())["maps"]
         fine = next(m for m in maps["maps"] if (m["kind"], m["label"]) == ("solids", "fine"))
         levels = unpacked(fine["levels"], np.uint8).reshape(5, maps["ny"], maps["nx"])
-        found = levels / (pack.EMPTY - 1) * (fine["high"] - fine["low"]) + fine["low"]
-        half_a_level = 0.5 * (fine["high"] - fine["low"]) / (pack.EMPTY - 1)
+        found = levels / (series.EMPTY - 1) * (fine["high"] - fine["low"]) + fine["low"]
+        half_a_level = 0.5 * (fine["high"] - fine["low"]) / (series.EMPTY - 1)
         np.testing.assert_allclose(found, self.sample.phi_fine[:][:, : maps["ny"]], atol=1.001 * half_a_level)
         self.assertEqual(maps["time"], [0, 0.25, 0.5, 0.75, 1])
 
@@ -142,7 +142,7 @@ class Maps(SampleRun):
         up = next((m for m in maps["maps"] if (m["kind"], m["label"]) == ("velocity", "fine")), None)
         if up is not None:
             levels = unpacked(up["levels"], np.uint8).reshape(5, maps["ny"], maps["nx"])
-            np.testing.assert_array_equal(levels == pack.EMPTY, self.sample.phi_fine[:][:, : maps["ny"]] <= 0.01)
+            np.testing.assert_array_equal(levels == series.EMPTY, self.sample.phi_fine[:][:, : maps["ny"]] <= 0.01)
         fluid = next(m for m in maps["maps"] if (m["kind"], m["label"]) == ("velocity", "fluid"))
         self.assertEqual(fluid["low"], -fluid["high"])
 
@@ -159,8 +159,8 @@ class Maps3D(Maps):
         maps = data_of(self.page())["maps"]
         fine = next(m for m in maps["maps"] if (m["kind"], m["label"]) == ("solids", "fine"))
         levels = unpacked(fine["levels"], np.uint8).reshape(5, maps["ny"], maps["nx"])
-        half_a_level = 0.5 * fine["high"] / (pack.EMPTY - 1)
-        np.testing.assert_allclose(levels / (pack.EMPTY - 1) * fine["high"], self.sample.phi_fine[:][:, 2, : maps["ny"]], atol=1.001 * half_a_level)
+        half_a_level = 0.5 * fine["high"] / (series.EMPTY - 1)
+        np.testing.assert_allclose(levels / (series.EMPTY - 1) * fine["high"], self.sample.phi_fine[:][:, 2, : maps["ny"]], atol=1.001 * half_a_level)
         self.assertIn("half depth", maps["note"])
 
     def test_no_velocity_where_a_species_is_absent(self):
@@ -286,16 +286,16 @@ class Numbers(unittest.TestCase):
         for value, unit, told in ((2.3, "m/s", "2.3 m/s"), (0.0023, "m/s", "2.3 mm/s"), (1.0, "m", "1 m"), (0.9999, "m", "1e+03 mm"),
                                   (4.5e-7, "s", "450 ns"), (101325, "Pa", "101 kPa"), (2.5e-6, "kg", "2.5 mg"), (3.2, "kg", "3.2 kg"),
                                   (2e-6, "m2/s2", "2 mm\u00b2/s\u00b2"), (0, "m", "0 m"), (0.25, "1", "0.25")):
-            self.assertEqual(units.text(value, unit), told)
+            self.assertEqual(polybed.texts.text(value, unit), told)
 
     def test_every_nth_entry_keeps_the_last(self):
-        self.assertEqual(list(pack.thinned(10, 4)), [0, 3, 6, 9])
-        self.assertEqual(list(pack.thinned(9, 4)), [2, 5, 8])
-        self.assertEqual(list(pack.thinned(3, 4)), [0, 1, 2])
+        self.assertEqual(list(series.thinned(10, 4)), [0, 3, 6, 9])
+        self.assertEqual(list(series.thinned(9, 4)), [2, 5, 8])
+        self.assertEqual(list(series.thinned(3, 4)), [0, 1, 2])
 
     def test_levels(self):
-        np.testing.assert_array_equal(pack.levels([0, 0.5, 1, 7, np.nan], 0, 1), [0, 127, 254, 254, pack.EMPTY])
-        self.assertEqual(pack.plain_numbers([1.234567, np.nan]), [1.2346, None])
+        np.testing.assert_array_equal(series.levels([0, 0.5, 1, 7, np.nan], 0, 1), [0, 127, 254, 254, series.EMPTY])
+        self.assertEqual(series.plain_numbers([1.234567, np.nan]), [1.2346, None])
 
 
 class Outflow(unittest.TestCase):

@@ -1,4 +1,22 @@
-"""Units with the SI prefix in which numbers read well: 2.3 m/s rather than 2300 mm/s."""
+"""Numbers with units, lengths of time and tables as text; tables of pages are in polybed.page."""
+
+
+def text_table(head, rows, align="<", gap="  "):
+    """Columns under each other, as wide as their widest cell. align: "<" or ">"; a line keeps no blanks at its end"""
+    lines = [list(map(str, line)) for line in (head, *rows)]
+    widths = [max(map(len, column)) for column in zip(*lines)]
+    return "\n".join(gap.join(f"{cell:{align}{width}}" for cell, width in zip(line, widths)).rstrip() for line in lines)
+
+
+def right_table(head, rows):
+    """Numbers, all to the right."""
+    return text_table(head, rows, ">", " ") + "\n"
+
+
+def markdown_table(head, rows):
+    lines = [head, ["---"] * len(head), *rows]
+    return "\n".join(f"| {' | '.join(map(str, line))} |" for line in lines)
+
 
 PREFIXES = ((1e9, "G"), (1e6, "M"), (1e3, "k"), (1.0, ""), (1e-3, "m"), (1e-6, "\u00b5"), (1e-9, "n"))
 WHOLE = {"1", "", "kg/m3"}  # units that stand without a prefix
@@ -7,8 +25,7 @@ GRAMS = {"kg": "g", "kg/s": "g/s"}
 
 
 def fitting(unit, greatest):
-    """(factor, name): what numbers in an SI unit are multiplied with, so that the greatest of them reads as 1 to 1000, and the unit
-    then. Numbers all 0, or without a unit, keep it."""
+    """(factor, unit) in which the greatest of numbers reads as 1 to 1000. All 0, or without a unit, they keep it."""
     if unit in WHOLE or not 0 < greatest < float("inf"):
         return 1.0, {"1": "", "m2/s2": "m\u00b2/s\u00b2"}.get(unit, unit)
     power, name = SQUARED.get(unit, (1, "{0}" + unit))
@@ -21,7 +38,7 @@ def fitting(unit, greatest):
 
 
 def fitting_prefix(greatest, power):
-    """The greatest prefix of which there is at least one; the smallest of all if there is none."""
+    """The greatest prefix of which there is at least one, else the smallest."""
     for size, prefix in PREFIXES:
         if greatest * (1 + 1e-9) >= size**power:
             return size**-power, prefix

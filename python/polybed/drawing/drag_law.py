@@ -1,9 +1,10 @@
-"""The band that the uncertainty of the drag law puts about an answer."""
+"""A fitted drag law against its rows, and the band that the uncertainty of a drag law puts about an answer."""
 
 import matplotlib.pyplot as plt
 import numpy as np
 
 from polybed.drawing.style import COLOURS, GREY, PALE
+from polybed.files import rows_of
 from polybed.read import read
 from polybed.study.measured import centre_column, species_of
 
@@ -50,7 +51,31 @@ def draw_runs(record, folder, figure):
     axes.legend()
 
 
+def columns(path):
+    rows = rows_of(path)
+    return {name: np.array([float(row[name] or "nan") for row in rows]) for name in rows[0] if name != "row"}
+
+
+def draw_fit(record, folder):
+    """Errors of a fitted law against voidage, and the same with rows left out."""
+    table = columns(folder / "errors.csv")
+    kinds = [(name, label) for name, label in (("published", "published constants"), ("fitted", "fitted"),
+                                               ("voidage_left_out", "voidages left out")) if name in table]
+    figure, panels = plt.subplots(1, len(kinds), figsize=(3.4 * len(kinds), 3), sharey=True, squeeze=False)
+    for axes, (name, label), colour in zip(panels[0], kinds, COLOURS):
+        axes.axhline(0, color=GREY, lw=0.6)
+        axes.plot(table["eps"], 100 * table[name], "o", ms=2.5, color=colour, alpha=0.6)
+        axes.set_title(f"{label}: mean {record['errors']['all'][name]['mean']:.2f} %")
+        axes.set_xlabel("voidage")
+    panels[0][0].set_ylabel("error of $n_j$, %")
+    figure.tight_layout()
+    return figure
+
+
 def draw(record, folder):
+    """The picture of fit.json or of closure_uncertainty.json."""
+    if record["filetype"] == "polybed drag fit":
+        return draw_fit(record, folder)
     figure = plt.figure(figsize=(6.4 if record["kind"] == "tfm" else 4, 3))
     draw_inversion(record, figure) if record["kind"] == "inversion" else draw_runs(record, folder, figure)
     figure.tight_layout()
