@@ -167,10 +167,9 @@ void write_requirements(core::Json& json, const core::Scene& scene, const Requir
                     {"program_MB", mega * need.memory.program}};
   json["dt_limits"] = {
       {"at_rest", json_of(need.rest)}, {"lifted", json_of(need.lifted)}, {"expanded", json_of(need.expanded)}};
-  json["time"] = nullptr;
-  if (!need.time) return;
-  json["time"] = seconds_of(tfm_time(scene, need, known_machine()));
-  json["time"].update({{"steps", need.time->steps}, {"s_per_step", need.time->seconds_per_step}});
+  json["dt_limits"]["expanded"]["bed_height_m"] = core::or_null(measured_height(scene, need.expanded.solids_fraction));
+  json["time"] = need.time ? seconds_of(tfm_time(scene, need, known_machine())) : core::Json();
+  if (need.time) json["time"].update({{"steps", need.time->steps}, {"s_per_step", need.time->seconds_per_step}});
 }
 
 void print_state(const char* name, const BedState& bed) {

@@ -122,6 +122,7 @@ class ResolveRun {
       text = core::said_by(ranks_.get(), box.rank, text);
     }
     write_rows();
+    if (!options_.quiet) core::print(stderr, "{}\n", interval_text(scene_.resolve.packings));
     if (first_ && options_.json)
       core::print("{}\n", core::json_text({{"rows", (directory_ / "rows.csv").string()}, {"table", table_}}));
   }

@@ -14,7 +14,7 @@ struct DragStokes {
   Guard guard = Guard::on;
   /// f = 1 at any voidage and Reynolds number.
   DragValue operator()(double, double) const { return {1, 0}; }
-  [[nodiscard]] bool outside(double, double re) const { return re > 0.1; }
+  [[nodiscard]] bool outside(double voidage, double re) const { return voidage < 1 || re > 0.1; }
 };
 
 }  // namespace polybed::closures

@@ -9,6 +9,7 @@
 #include "core/error.hpp"
 #include "core/numerics/blocks.hpp"
 #include "core/numerics/metric.hpp"
+#include "measures/bed.hpp"
 #include "relevance/drag_law.hpp"
 #include "tfm/fields.hpp"
 #include "tfm/step_estimate.hpp"
@@ -263,6 +264,15 @@ double bytes_of_walls(const core::Scene& scene) {
   const double axes = scene.column.dimensions, fields = 6 + 4 * axes, layers = 4 + 3 * axes;
   constexpr double multigrid = 800;  // bytes a cell more than of the row means of the sample, in a tube of 57,344 cells
   return (double(sizeof(double)) * (fields + layers) + multigrid) * double(cell_count(scene));
+}
+
+std::optional<double> measured_height(const core::Scene& scene, double solids_fraction) {
+  if (!(solids_fraction > 0)) return {};
+  const double top = scene.bed.static_height * scene.bed.solids_fraction / solids_fraction;
+  if (!(top > 0)) return {};
+  const auto slabs = std::size_t(scene.column.cells[1]);
+  const measures::Profile bed{top, {{solids_fraction}}, {}};
+  return measures::bed_height(measures::on_slabs(bed, scene.column.size[1] / double(slabs), slabs));
 }
 
 core::Scene narrow_part(const core::Scene& scene, std::size_t most_cells) {

@@ -53,6 +53,9 @@ struct Requirements {
   std::optional<TimeNeed> time;  ///< empty if the computation failed in the sample
 };
 
+/// Height, m, of a uniform bed as a run measures it, on slabs of one cell; empty if the bed is carried away.
+[[nodiscard]] std::optional<double> measured_height(const core::Scene& scene, double solids_fraction);
+
 /// The case on fewer cells of the same size: sides are reduced first, to no less than eight cells, then the height,
 /// with the bed. Cell size, velocities and composition, which determine the steps, stay.
 [[nodiscard]] core::Scene narrow_part(const core::Scene& scene, std::size_t most_cells);

@@ -43,8 +43,7 @@ double share_of_bottom(const core::Column& column, const Part& jet) {
   if (column.around_axis())
     return std::numbers::pi * (jet.to[0] * jet.to[0] - jet.from[0] * jet.from[0]) / column.cross_section();
   double area = jet.to[0] - jet.from[0];
-  const bool wide = jet.from.size() < 2 || jet.to.size() < 2;
-  area *= wide ? column.size[2] : jet.to[1] - jet.from[1];  // in two dimensions, on the bottom and in a side
+  area *= jet.from.size() < 2 || jet.to.size() < 2 ? column.size[2] : jet.to[1] - jet.from[1];  // depth in 2-D
   return area / column.cross_section();
 }
 
@@ -293,6 +292,7 @@ BedOfCase bed_without_expansion(const core::Scene& scene, const Slices& slices) 
   add_spread(balance, mixture, bed);
   const bool flows = !scene.column.closed && !(scene.inlet.superficial_velocity.empty() && scene.jets.empty());
   if (flows) bed.velocity = velocity_at_end(scene);
+  if (flows && !scene.jets.empty()) bed.inlet = value_at(scene.inlet.superficial_velocity, scene.run.until);
   const bool any = scene.bed.static_height > 0 || !scene.bed.particles.empty();
   if (!flows || !any || !bed.own.minimum_fluidisation) return bed;
   if (balance.known() && !scene.bed.held) {

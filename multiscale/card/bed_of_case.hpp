@@ -63,6 +63,7 @@ struct BedOfCase {
   std::vector<std::pair<std::string, double>> masses;  ///< kg at the start; size classes count as one
   double area = 0;                                     ///< m2, of the inlet of a case that gives its flow rate
   std::optional<double> velocity;                      ///< superficial, mean over the bottom at the end of the run, m/s
+  std::optional<double> inlet;                         ///< of a case with jets: the inlet's own at that time, m/s
   double settled = 0;                                  ///< m, height of the settled bed, higher between walls inside
   std::optional<double> lift;                          ///< Pa, pressure drop expected between walls inside, fluidised
   Fluidisation state{};                                ///< predicted

@@ -245,12 +245,19 @@ std::vector<std::string> expectation_lines(const core::Scene& scene, const BedOf
     if (bed.own.height) {
       text += *bed.own.height < top ? fmt::format(", about {:.0f} mm high by {}", 1e3 * *bed.own.height, bed.own.law)
                                     : ", up to the top of the column by " + bed.own.law;
-      text += fmt::format(" (settled {:.0f} mm, column {:.0f} mm)", 1e3 * bed.settled, 1e3 * top);
+      const bool lifted = !scene.walls.empty() && bed.settled > (1 + 1e-9) * scene.bed.static_height;
+      text += fmt::format(
+          " (settled {:.0f} mm{}, column {:.0f} mm)", 1e3 * bed.settled,
+          lifted ? fmt::format(", {:.0f} mm without the walls inside", 1e3 * scene.bed.static_height) : std::string(),
+          1e3 * top);
     }
     if (!bed.leaving.empty())
       text += fmt::format("; lifted {}: {}", scene.column.outlet == core::Outlet::open ? "out" : "to the top",
                           each(bed.leaving));
     lines.push_back(card_line("expect", text));
+    if (bed.inlet)
+      lines.push_back(card_line(
+          "", "as if the jets flowed evenly through the whole bottom: a jet moves only the solids on its path"));
     const std::string others = bed.own.height && bed.state == Fluidisation::fluidised
                                    ? by_others(bed, &ByLaw::height, "m", top)
                                    : std::string();

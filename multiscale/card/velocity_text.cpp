@@ -130,8 +130,13 @@ void add_velocities(const BedOfCase& bed, bool in_full, std::vector<std::string>
         bed.species.size() > 1 ? of_species(bed, &SpeciesInFluid::minimum_fluidisation) + ", mixture " : std::string();
     text += velocity_text(*bed.own.minimum_fluidisation, bed.area) + " by " +
             (bed.own.law.empty() ? "Wen and Yu's correlation" : bed.own.law);
-    if (const auto ratio = bed.velocity_ratio())
+    if (const auto ratio = bed.velocity_ratio()) {
       text += fmt::format("; u = {} is {} times that", velocity_text(*bed.velocity, bed.area), times_text(*ratio));
+      if (bed.inlet)
+        text +=
+            fmt::format(" with the jets averaged over the bottom; the inlet alone, {}, is {} times that",
+                        velocity_text(*bed.inlet, bed.area), times_text(*bed.inlet / *bed.own.minimum_fluidisation));
+    }
     lines.push_back(card_line("fluidises at", text));
     std::vector<std::string> more;
     if (in_full) more = {spread_text(bed), by_others(bed, &ByLaw::minimum_fluidisation, "m/s", {})};

@@ -12,6 +12,7 @@
 #include "core/case/file.hpp"
 #include "core/error.hpp"
 #include "core/output/rows.hpp"
+#include "measures/time_mean.hpp"
 #include "relevance/fluid_properties.hpp"
 
 namespace polybed::multiscale {
@@ -81,6 +82,18 @@ RowValue row_value(const RowBoxes& boxes, const std::function<double(const std::
   row.error = boxes.size() > 1 ? std::sqrt(squares / (count * (count - 1))) : unknown;
   row.grid = boxes[0].size() > 1 ? row.mean - coarser : unknown;
   return row;
+}
+
+std::string interval_text(int packings) {
+  constexpr int least = 4;
+  if (packings < 2) return "one packing: no standard errors; resolve.packings of 4 or more gives 95 % intervals";
+  if (packings < least)
+    return fmt::format(
+        "standard errors from {} packings, without Student's factor: too few for a 95 % interval, which "
+        "needs resolve.packings of {} or more",
+        packings, least);
+  return fmt::format("standard errors from {} packings: a 95 % interval is {:.3g} times as wide on either side",
+                     packings, measures::student_quantile(std::size_t(packings) - 1));
 }
 
 std::string row_header(const core::Scene& scene) {

@@ -31,6 +31,9 @@ using RowBoxes = std::vector<std::vector<std::vector<BoxDrag>>>;
 [[nodiscard]] std::string row_header(const core::Scene& scene);
 [[nodiscard]] std::string row_text(const core::Scene& scene, double voidage, double reynolds, const RowBoxes& boxes);
 
+/// What the standard errors of rows over so many packings are worth: a 95 % interval from four on, as of all means.
+[[nodiscard]] std::string interval_text(int packings);
+
 /// A box as a line of text, and back; nothing for an invalid line or a number that is not finite.
 [[nodiscard]] std::string box_text(const BoxDrag& box);
 [[nodiscard]] BoxDrag box_of_text(const std::string& text, const core::Scene& scene);

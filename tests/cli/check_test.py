@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 """What `polybed check` says a case will need, against runs of it. Usage: check_test.py PROGRAM"""
 import re
+import tomllib
 
 import program
 from program import CASE, DONE, SMALL, Scratch, peak_memory, run, strict_json
@@ -60,6 +61,27 @@ class Needs(Scratch):
         self.assertIn("viscosity_s", viscous["dt_limits"]["at_rest"])
         # 3.1313 mm is the smaller side of a cell: h/(U/eps) = 3.1313e-3 * 0.38/0.03 by hand; nothing falls faster
         self.assertAlmostEqual(rest["convection_s"], 3.1313e-3 * 0.38 / 0.03, delta=1e-5)
+
+    def test_a_uniform_bed_has_the_height_that_a_run_measures(self):
+        """A sharp top fills a slab by f: the half of the fraction below is passed (f - 1/2)/f of a slab above its centre, or for f below a half
+        (1/2 - f)/(1 - f) below it."""
+        for cells in (99, 160):
+            found = answer(*setting(column__cells=f"[18,{cells}]"))
+            keys, expanded = tomllib.loads(found["case"]), found["dt_limits"]["expanded"]
+            slab, solids = keys["column"]["size"][1] / cells, keys["bed"]["static_height"] * keys["bed"]["solids_fraction"]
+            whole, f = divmod(solids / expanded["solids_fraction"] / slab, 1)
+            passed = whole + 0.5 + ((f - 0.5) / f if f > 0.5 else (f - 0.5) / (1 - f))
+            self.assertAlmostEqual(expanded["bed_height_m"], passed * slab, delta=1e-9)
+
+    def test_the_flow_of_jets_is_told_apart(self):
+        """Half of the bottom has a jet of 40 mm/s and the rest the inlet's 30: 35 mm/s in the mean."""
+        jet = '\n[[jet]]\nfrom = [0.0]\nto = [%s]\nsuperficial_velocity = 0.04\n'
+        width = tomllib.loads(answer()["case"])["column"]["size"][0]
+        case = self.write("jet.toml", CASE.read_text() + jet % (width / 2))
+        told = self.ends(DONE, "check", case).stdout
+        self.assertRegex(told, r"u = 35 mm/s is [\d.]+ times that with the jets averaged over the bottom; the inlet alone, 30 mm/s, is [\d.]+ times that")
+        self.assertIn("as if the jets flowed evenly through the whole bottom", told)
+        self.assertNotIn("jets", self.ends(DONE, "check", CASE).stdout)
 
     def test_a_start_that_a_run_would_refuse_is_refused(self):
         """Sixteen beads of 2.2 mm as random as they are given do not fit into 15 mm; and between joined ends one falls for ever."""

@@ -159,6 +159,14 @@ class Drag(Scratch):
         done = self.ends(DONE, "drag", "--csv", self.write("points.csv", text), *words)
         return list(csv.DictReader(io.StringIO(done.stdout)))
 
+    def test_a_law_answers_within_the_range_of_its_source(self):
+        """Stokes has one sphere, Batchelor a dilute suspension, both creeping flow; the band of a packed bed starts with neither."""
+        for law, voidage, re_, inside in (("stokes", 1, 0, True), ("stokes", 0.4, 0, False), ("stokes", 1, 0.2, False),
+                                          ("batchelor", 0.97, 0, True), ("batchelor", 0.97, 1e5, False), ("batchelor", 0.4, 0, False)):
+            told = self.ends(DONE, "drag", "--law", law, "--voidage", str(voidage), "--re", str(re_)).stderr
+            self.assertEqual("range: within" in told, inside, (law, voidage, re_))
+        self.assertNotIn("stokes", self.ends(DONE, "drag", "--law", "ergun", "--voidage", "0.4", "--re", "0").stderr)
+
     def test_a_point_and_a_row_agree(self):
         point = float(self.ends(DONE, "drag", "--law", "ergun", "--voidage", "0.5", "--re", "20").stdout)
         # Ergun in this form by hand: 150 (1 - eps)/(18 eps^2) + 1.75 Re/(18 eps^2) = 16.6667 + 7.7778

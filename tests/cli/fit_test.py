@@ -73,6 +73,15 @@ class Fit(Fitted):
             self.assertAlmostEqual(found["constants"][name] / value, 1, delta=0.05, msg=name)  # what the weak prior leaves
         self.assertLess(found["errors"]["all"]["fitted"]["greatest"], 0.2)
 
+    def test_rows_that_no_constant_changes_are_told(self):
+        """Of one size at Re 0 brinkman_oseen is theory without a constant: n = 2 f0/eps is missed by half whatever is fitted."""
+        (self.folder / "rows.csv").write_text("eps,Re,n\n0.5,0,40\n0.6,0,24\n0.7,0,14\n0.8,0,8\n0.6,20,14\n0.6,50,18\n0.7,20,9\n0.7,50,12\n")
+        told = self.ends(DONE, "fit", self.folder / "rows.csv", "-o", self.folder / "fit", "--quiet", "--no-picture", "--bootstrap", "2").stderr
+        self.assertIn("% in the mean: the form brinkman_oseen does not follow these rows", told)
+        self.assertIn("4 of 8 forces at Re 0 are the same with any constants of brinkman_oseen", told)
+        clean = self.ends(DONE, "fit", *ONE_SIZE, "-o", self.folder / "good", "--quiet", "--no-picture", "--bootstrap", "2").stderr
+        self.assertNotIn("warning", clean)
+
     def test_the_package_and_the_program_have_one_formula(self):
         points = rows.read_points([DATA])
         for form, published in json.loads(self.ends(DONE, "list", "--json").stdout)["drag_forms"].items():

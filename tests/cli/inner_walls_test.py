@@ -97,6 +97,7 @@ class Hopper(Scratch):
         rod = 'wall=[{from=[0.0125, 0.02], shape="rod", thickness=0.0075}]'
         told = self.ends(DONE, "check", bank, "--set", rod)
         expected = strict_json(self.ends(DONE, "check", bank, "--json", "--set", rod).stdout)["expected"]
+        self.assertIn("(settled 41 mm, 40 mm without the walls inside, column", told.stdout)
         lifted = np.pi / 4 * 0.0075**2 / 0.05
         self.assertAlmostEqual(expected["settled_height_m"], 0.04 + lifted, delta=2e-3 * lifted)  # the curvature within parts of cells
         self.assertGreater(expected["bed_height_m"], expected["settled_height_m"])

@@ -72,6 +72,8 @@ class Resolve(Scratch):
         again = self.resolve("--set", "resolve.reynolds=[0]", "--resume").stdout
         self.assertEqual(again, first)
         self.assertEqual((self.out / "boxes.csv").read_text(), boxes)
+        told = self.ends(DONE, "resolve", self.case, "-o", self.out, "--set", "resolve.reynolds=[0]", "--resume").stderr
+        self.assertIn("standard errors from 2 packings, without Student's factor: too few for a 95 % interval", told)
         self.out = self.folder / "other"
         self.resolve("--resume", code=FILE)
 

@@ -94,14 +94,19 @@ def missed_at(phi, value, error, p):
     return off / value[p], (off - 2 * both) / value[p]
 
 
-def left_out(table):
-    """Greatest |curve/point - 1| of p and mu at fractions left out, and beyond two standard errors of both; 0 for too few."""
+def missed(table):
+    """For p and mu at each inner solids fraction: |curve/point - 1| where that is left out of the curve, the same beyond two standard errors
+    of both together, the name, and the number of the solids fraction; none where there are too few."""
     phi = np.array(table["phi"])
     if len(phi) < LEAST_TO_LEAVE_OUT:
-        return 0.0, 0.0
-    missed = [missed_at(phi, value, error, p) for name in ("p_ratio", "mu_ratio")
-              for value, error in zip(table.lines(name), table.lines(f"{name}_se")) for p in range(1, len(phi) - 1)]
-    return tuple(max(0.0, *(float(one[n]) for one in missed)) for n in range(2))
+        return []
+    return [(*missed_at(phi, value, error, p), name, p) for name in ("p", "mu")
+            for value, error in zip(table.lines(f"{name}_ratio"), table.lines(f"{name}_ratio_se")) for p in range(1, len(phi) - 1)]
+
+
+def left_out(table):
+    """The greatest of both in missed(table); 0 where there are too few."""
+    return tuple(max([0.0, *(float(one[n]) for one in missed(table))]) for n in range(2))
 
 
 def relative_errors(table):
@@ -135,12 +140,16 @@ def require_usable(table, falls):
         raise StudyError(NUMBERS, "the pressure of the table falls with the solids fraction, which no bed can follow: " + "; ".join(falls))
     residual, allowed = table.attributes["fit_residual"], f"{100 * GREATEST_RESIDUAL:.0f} % are allowed"
     if not residual <= GREATEST_RESIDUAL:
-        raise StudyError(NUMBERS, f"the curve through the other solids fractions misses one by {100 * residual:.1f} % more than two standard "
-                               f"errors of both, {allowed}: the grid is too coarse for what it shows; add to calibrate.solids_fraction")
+        _, _, name, p = max(missed(table), key=lambda one: one[1])
+        below, phi, above = table["phi"][p - 1:p + 2]
+        raise StudyError(NUMBERS, f"left out, the solids fraction {phi:g} is missed: the curve through the others has a {name} that is off by "
+                               f"{100 * residual:.1f} % more than two standard errors of both, {allowed}. Half the distance leaves about a "
+                               f"quarter: add {(below + phi) / 2:.4g} and {(phi + above) / 2:.4g} to calibrate.solids_fraction")
     for phi, seeds, error in zip(table.points("phi"), table.points("p_ratio_n"), relative_errors(table)):
         if seeds > 1 and not error <= GREATEST_RESIDUAL:
+            more = math.ceil((error / GREATEST_RESIDUAL) ** 2 * seeds)
             raise StudyError(NUMBERS, f"at phi = {phi:g} the seeds scatter: p or mu has a standard error of {100 * error:.1f} %, {allowed}; "
-                                   "raise calibrate.seeds or calibrate.particles")
+                                   f"raise calibrate.seeds to about {more} ({seeds:g} at this point), or calibrate.particles likewise")
 
 
 def bed_table(seeds, boxes, weight):

@@ -61,9 +61,9 @@ class Scene(Case):
         return "dem" in self.needs
 
     def carried(self):
-        """Height, m, of the bed by the balance of forces on a uniform bed; None where the fluid carries a lone particle away."""
-        phi = self.needs["dt_limits"]["expanded"]["solids_fraction"]
-        return self.needs["static_height_m"] * self.of("bed.solids_fraction") / phi if phi > 0 else None
+        """Height, m, of the uniform bed that the forces balance on, measured on the slabs of the case as in a run; None where the fluid
+        carries a lone particle away."""
+        return self.needs["dt_limits"]["expanded"]["bed_height_m"]
 
 
 @dataclass

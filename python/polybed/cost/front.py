@@ -20,7 +20,8 @@ def line_error(sweeper, name, level):
     if name == "grid":
         found = row.quantities.get(sweep.ranking)
         return inf if found is None else found.error
-    tightest = next((r for r in sweep.rows if r.kind == REFERENCE and r.done and not sweep.chaotic), None)
+    tightest = sweep.find(sweeper.tight(), REFERENCE)
+    tightest = tightest if tightest and tightest.done and not sweep.chaotic else None
     for finest in reversed(range(len(sweep.axis(name).levels))):
         tightest = tightest or sweeper.row_on_line(name, finest)
     distance = distance_of(sweep, row, tightest)
@@ -138,6 +139,15 @@ def of_statistics(sweeper):
     return Share(row, value, "95 % interval of one window")
 
 
+def of_input(row, given, ranking, distance):
+    """The change by a datum, of a height by the centre of all solids, which a uniform bed raises in proportion: slabs show a small step of its
+    sharp top as half to twice as large."""
+    a, b = row.measured.centre, given.measured.centre
+    if ranking != "bed_height" or not (distance is not None and a and b):
+        return Share(row.note, distance)
+    return Share(row.note, abs(a / b - 1), "by the centre of the solids: slabs do not resolve a small step of the top")
+
+
 def attribute(sweeper):
     """Always six rows; the inputs below them."""
     sweep = sweeper.sweep
@@ -147,7 +157,7 @@ def attribute(sweeper):
         if row.kind == SOLVER and distance is not None:
             solver = Share(solver.row, distance, row.note)
         if row.kind == INPUT:
-            sweep.inputs.append(Share(row.note, distance))
+            sweep.inputs.append(of_input(row, sweeper.centre_row, sweep.ranking, distance))
     sweep.attribution = [of_line(sweeper, "time integration", ("rtol", "steps")), of_line(sweeper, "space", ("grid",)), solver,
                          of_statistics(sweeper), of_models(sweeper, "closure spread", ("drag", "effects", "stiffness")),
                          of_models(sweeper, "level", ("level",))]

@@ -55,9 +55,9 @@ def refine(coarse, medium, fine, ratio=2.0, formal_order=2.0):
     """Observed order p = ln((f3 - f2)/(f2 - f1))/ln r, Richardson's limit f1 + (f1 - f2)/(r^p - 1) and the band
     F_s |f1 - f2|/(r^p - 1) (Roache 1994, J. Fluids Eng. 116, 405) of one quantity on three grids: f3, f2 and f1.
 
-    F_s = 1.25 where p_formal/2 <= p <= p_formal + 0.5; monotone otherwise: 3 with the smaller of p and p_formal. Not monotone, or
-    differences that do not shrink: no order; the band is three times half the range of the values. Raises ValueError for r < 1.3, where
-    rounding and noise are amplified beyond use. ratio: r, of the spacings
+    F_s = 1.25 where p_formal/2 <= p <= p_formal + 0.5; monotone otherwise: 3 with the smaller of p and p_formal, and at least |f1 - f2|. Not
+    monotone, or differences that do not shrink: no order; the band is three times half the range of the values. Raises ValueError for
+    r < 1.3, where rounding and noise are amplified beyond use. ratio: r, of the spacings
     """
     if not ratio >= LEAST_RATIO:
         raise ValueError("grids of a ratio below 1.3")
@@ -75,8 +75,9 @@ def refine(coarse, medium, fine, ratio=2.0, formal_order=2.0):
     in_range = formal_order / 2 <= observed <= formal_order + 0.5
     growth = ratio ** (observed if in_range else min(observed, formal_order))
     safety = SAFETY_IN_RANGE if in_range else SAFETY_ELSEWHERE
-    return Refined(fine - first / (growth - 1), safety * abs(first) / (growth - 1), observed, safety,
-                   "" if in_range else "the observed order is not that of the scheme")
+    band = safety * abs(first) / (growth - 1)
+    return Refined(fine - first / (growth - 1), band if in_range else max(band, abs(first)), observed, safety,
+                   "" if in_range else f"the observed order {observed:.2g} is not that of the scheme, {formal_order:.2g}")
 
 
 def carries(disagreement, errors, target):

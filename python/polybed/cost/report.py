@@ -138,7 +138,8 @@ def definitions(found):
     """What the numbers are, in sentences."""
     kind, note = found["reference"]["kind"], found["reference"].get("note")
     return (f"Computing times are {CLOCKS[found['clock']]}. An error is the distance from the reference: {REFERENCES.get(kind, kind)}"
-            f"{f' ({note})' if note else ''}.")
+            f"{f' ({note})' if note else ''}. Heights are measured on slabs as high as the cells of the case, in the reference, too: a sharp top is "
+            "read up to a tenth of a slab too high or too low.")
 
 
 def sweep_markdown(found):

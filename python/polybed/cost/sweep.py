@@ -5,6 +5,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import NamedTuple
 
+import numpy as np
+
 from polybed.cost.runner import RunOrder, RunOutcome
 from polybed.quantities import TABLE
 from polybed.study.measured import centre_column, means_of, species_of
@@ -60,6 +62,7 @@ class RunQuantities:
     values: dict = field(default_factory=dict)  # those that the run has, TimeMean
     directory: Path | None = None  # of the run, if it has stored profiles in the window
     too_short: str = ""  # a quantity with fewer than 30 autocorrelation times
+    centre: float | None = None  # of the volume of all solids, m
 
 
 def quantities_of(species):
@@ -68,6 +71,12 @@ def quantities_of(species):
             *(several if len(species) > 1 else []), ("profile", "1", SHARE)]
     words = HELP | {f"centre_{name}": HELP["centre_<name>"] for name in species} | {"pressure_drop": "over the buoyant weight"}
     return [QuantityInfo(name, unit, words[name], scale) for name, unit, scale in rows]
+
+
+def centre_of(measured):
+    """Height, m, of the centre of volume of all solids in a mean profile, as in a column of one width; None for an empty one."""
+    solids = sum(np.nan_to_num(np.array(of["mean"], float)) for of in measured.fraction.values())
+    return float(np.average(measured.height, weights=solids)) if np.sum(solids) > 0 else None
 
 
 def quantities_of_run(run, begin, slabs):
@@ -89,6 +98,7 @@ def quantities_of_run(run, begin, slabs):
             found.too_short = name
         found.values[name] = mean
     found.directory = run.directory if measured.profiles else None
+    found.centre = centre_of(measured)
     if len(species) > 1 and "interface_m" in measured.of_profile:
         found.values["interface"] = measured.of_profile["interface_m"]
     return found

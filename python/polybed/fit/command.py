@@ -17,6 +17,8 @@ from polybed.study.cases import laws_of
 from polybed.texts import text_table
 
 INTERVAL = (2.5, 97.5)  # per cent of the draws
+LARGE_ERROR = 10  # per cent, mean of a fit: several times what the forms have on resolved flow
+UNCHANGED = 1e-6  # of the force on a row, by constants that are all moved
 FORM_OFF = 1e-9  # of the force, between this package and the program: rounding
 
 
@@ -72,6 +74,21 @@ def by_source(points, arrays):
             for name, of in parts.items()}
 
 
+def poor_fit(problem, found, own, mean):
+    """Warnings of a fit whose errors are large, and of rows that no constant changes. own: relative errors by the fit; mean: of their
+    absolute values, per cent"""
+    if not mean > LARGE_ERROR:
+        return []
+    lines = [f"the fit is off by {mean:.0f} % in the mean: the form {problem.form} does not follow these rows"]
+    moved = [problem.relative(problem.constants(found + 0.1 * unit)) for unit in np.eye(len(found))]
+    fixed = problem.known & (np.max(np.abs(np.array(moved) - own), axis=0) < UNCHANGED)
+    if fixed.any():
+        at_rest = " at Re 0" if (problem.sizes.reynolds[fixed] == 0).all() else ""
+        lines.append(f"{fixed.sum()} of {problem.known.sum()} forces{at_rest} are the same with any constants of {problem.form}, which are not "
+                     f"fitted to them: off by up to {100 * np.abs(own[fixed]).max():.0f} %; see errors.csv, and --form")
+    return lines
+
+
 def write_law(path, text):
     path.write_text(json.dumps(text, indent=1, allow_nan=False) + "\n", encoding="utf-8")
 
@@ -97,6 +114,8 @@ def fit(given, folder):
               "voidage_left_out": problem.left_out_by_voidage(found)}
     broken = float(np.abs(problem.violations(constants)).max())
     summaries, band = by_source(points, arrays), errors.band_of(points, nets)
+    for line in poor_fit(problem, found, own, summaries["all"]["fitted"]["mean"]):
+        remark(f"warning: {line}")
     about = {"rows": [str(path) for path in given.rows], "points": len(points), "forces": int(problem.known.sum()),
              "form": given.form, "free": problem.free, "bootstrap": given.bootstrap, "seed": given.seed,
              "created": time.strftime("%Y-%m-%dT%H:%M:%SZ", time.gmtime())}

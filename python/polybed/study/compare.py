@@ -79,10 +79,10 @@ def read_scan(options, case):
         return (scan, path) if both else None
 
 
-def command_to_go_on(options, time):
-    """The command that continues both runs to twice the time, s."""
+def command_to_go_on(options, until):
+    """The command that continues both runs to a time, s."""
     words = [os.environ.get("POLYBED_TYPED", "polybed"), *(["-n", ranks()] if ranks() > 1 else []), "compare", options.case, "-o", options.output,
-             "--resume", *words_of(options.set), "--until", f"{2 * time:.4g} s"]
+             "--resume", *words_of(options.set), "--until", f"{until:.4g} s"]
     return " ".join(shlex.quote(str(word)) for word in words)
 
 
@@ -101,8 +101,9 @@ def compare_runs(options, case, directories):
     path = Path(options.output) / "comparison.json"
     text = write_record(path, record)
     made_here = not (options.tfm or options.dem)
-    drifts = made_here and any(drift_lines(run.record) for run in runs)
-    more = f"\nto go on: {command_to_go_on(options, records['tfm']['time_s'])}" if drifts else ""
+    longer = made_here and (found["least_time"] or any(drift_lines(run.record) for run in runs))
+    until = max(2 * records["tfm"]["time_s"], found["least_time"])
+    more = f"\nto go on: {command_to_go_on(options, until)}" if longer else ""
     answer(text if options.json else f"{table(record)}\n{path}{more}")
     if options.picture:
         draw(path, "page", options.json or options.quiet)

@@ -50,16 +50,25 @@ def on_top(centres):
     return {"species": name, "certain": error is not None and first.mean - second.mean > error}
 
 
-def warnings_of(run, means):
-    """Warnings of means that rest on too short a window. means: by name"""
+def too_short(run, means):
+    """(the slowest quantity, how long a run has to be for its mean, s, up to the next two digits), of a window that is too short; else None.
+    means: by name"""
     times = {name: mean.correlation for name, mean in means.items() if mean and mean.error is not None}
     slowest = max(times, key=times.get, default=None)
+    if slowest is None or run.rows >= ENOUGH * times[slowest]:
+        return None
+    least = WINDOW_PARTS * ENOUGH * times[slowest] * run.step
+    digit = 10.0 ** (math.floor(math.log10(least)) - 1)
+    return slowest, math.ceil(least / digit) * digit
+
+
+def warnings_of(run, short):
+    """Warnings of means that rest on too short a window. short: of too_short"""
     warnings = []
     if run.rows < ENOUGH_ROWS:
         warnings.append(f"{run.rows} rows of its history in the window: intervals need {ENOUGH_ROWS}; a smaller output.history_every gives more")
-    if slowest and run.rows < ENOUGH * times[slowest]:
-        least = WINDOW_PARTS * ENOUGH * times[slowest] * run.step
-        warnings.append(f"window too short for {measure_words(slowest)}: run at least {least:.3g} s")
+    if short:
+        warnings.append(f"window too short for {measure_words(short[0])}: run at least {short[1]:.4g} s")
     return warnings
 
 
@@ -90,7 +99,8 @@ def scores_of(means, measures, distances, species, kinds):
 
 
 def compare(tfm, dem):
-    """comparison.json of two runs of one case, and their profiles in the window. Raises ProgramError if species or slabs differ."""
+    """comparison.json of two runs of one case, their profiles in the window, and the least time, s, for their means, or 0. Raises ProgramError if
+    species or slabs differ."""
     window, runs, distances = means_of(tfm.directory, beside=dem.directory)
     by_model, species = dict(zip(MODELS, runs)), list(runs[0].fraction)
     kinds = list(kinds_among(species))
@@ -103,13 +113,15 @@ def compare(tfm, dem):
     fractions = {model: {f"phi_{name}": {"mean": of["mean"], "error": of["interval"]} for name, of in run.fraction.items()}
                  for model, run in by_model.items()}
     profiles = {model: run.profiles for model, run in by_model.items()}
+    short = {model: too_short(run, means[model]) for model, run in by_model.items()}
     warnings = [f"{model}: {line}" for model, of in (("tfm", tfm), ("dem", dem))
-                for line in (*warnings_of(by_model[model], means[model]), *drift_lines(of.record))]
+                for line in (*warnings_of(by_model[model], short[model]), *drift_lines(of.record))]
     if not all(profiles.values()):
         warnings.append("no stored profile of both runs in the window: a smaller output.every stores more")
     return {"window": {"begin_s": window.begin, "end_s": window.end, "shortened": window.shortened, "confidence": CONFIDENCE},
             "measures": measures, "mean_profiles": {"y_m": runs[0].height} | fractions,
-            "scores": scores_of(means, measures, distances, species, kinds), "profiles": profiles, "warnings": warnings}
+            "scores": scores_of(means, measures, distances, species, kinds), "profiles": profiles, "warnings": warnings,
+            "least_time": max((one[1] for one in short.values() if one), default=0.0)}
 
 
 def add_inversion(comparison, scan, path, velocity):

@@ -155,7 +155,8 @@ class Compare(unittest.TestCase):
         self.assertTrue(c["window"]["shortened"])
         self.assertAlmostEqual(c["window"]["begin_s"], 87.5, delta=0.1)  # at most half of the window is dropped
         self.warned(c, "tfm: not steady")
-        self.warned(c, "tfm: window too short for bed height")
+        [line] = [line for line in c["warnings"] if "tfm: window too short for bed height: run at least" in line]
+        self.assertEqual(float(line.split()[-2]), c["least_time"], "one number for the warning and the command")
 
     def test_what_a_run_does_not_have_stays_empty(self):
         few = at_rest(0.03, 0.06)

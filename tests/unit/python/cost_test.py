@@ -19,13 +19,15 @@ os.environ["POLYBED"] = PROGRAM
 
 from polybed.cost import command  # noqa: E402
 from polybed.cost.axes import axes_of, grid_level, level_axis, numbers  # noqa: E402
+from polybed.cost.front import line_error, of_input  # noqa: E402
 from polybed.cost.judge import carries, fit_power_law, pareto_front, refine  # noqa: E402
 from polybed.cost.report import advice, shares_json  # noqa: E402
-from polybed.cost.sweep import Priced, Share, quantities_of_run  # noqa: E402
+from polybed.cost.sweep import CANDIDATE, REFERENCE, Priced, Row, RunQuantities, Share, Sweep, quantities_of_run  # noqa: E402
 from polybed.cost.sweeper import is_chaotic  # noqa: E402
-from polybed.cost.runner import counters_of, weighed  # noqa: E402
+from polybed.cost.runner import RunOrder, RunOutcome, counters_of, weighed  # noqa: E402
 from polybed.ending import StudyError  # noqa: E402
 from polybed.runner import call  # noqa: E402
+from polybed.study.measured import TimeMean  # noqa: E402
 from stored_run import Written  # noqa: E402
 
 
@@ -97,6 +99,8 @@ class Refinement(unittest.TestCase):
         self.assertEqual(found.safety, 3)
         self.assertAlmostEqual(found.band, 3 * (1 / 8 - 1 / 64), delta=1e-12)
         self.assertIn("not that of the scheme", found.note)
+        wide = refine(2, 1 + 3**-5, 1 + 9**-5, 3, 2)  # 3/(3^2 - 1) of the last difference would be less than that itself
+        self.assertAlmostEqual(wide.band, 3**-5 - 9**-5, delta=1e-12)
         slow = refine(1 + 1, 1 + 0.9, 1 + 0.82, 2, 2)  # p = ln(0.1/0.08)/ln 2
         self.assertAlmostEqual(slow.order, 0.3219, delta=1e-4)
         self.assertEqual(slow.safety, 3)
@@ -111,6 +115,32 @@ class Refinement(unittest.TestCase):
         self.assertEqual(refine(1.0, 1.0, 1.0).band, 0)
         with self.assertRaises(ValueError):
             refine(1, 2, 3, 1.2)
+
+
+def row_of(height, order=RunOrder("tfm"), kind=CANDIDATE, centre=None):
+    return Row(order, kind, outcome=RunOutcome("done"), measured=RunQuantities({"bed_height": TimeMean(height)}, centre=centre))
+
+
+class Parts(unittest.TestCase):
+    def test_time_is_measured_against_its_own_tightest_run_whatever_the_reference(self):
+        """Heights of 61 and 61.1 mm by two tolerances on the coarsest grid, beside a force balance of 63 mm and a tight run of 61.2 mm there."""
+        line, tight = [row_of(0.061), row_of(0.0611)], RunOrder("tfm", ("tfm.rtol=1e-07",))
+        axis = numbers(SimpleNamespace(of=lambda *_: 1e-3), "tfm", "rtol", "tfm.rtol", [1e-2, 1e-3], True, [])
+        sweep = Sweep(SimpleNamespace(quantities=["bed_height"]), [axis])
+        sweep.rows = [row_of(0.063, RunOrder("force_balance"), REFERENCE), *line]
+        sweeper = SimpleNamespace(sweep=sweep, row_on_line=lambda _, level: line[level], tight=lambda: tight)
+        self.assertAlmostEqual(line_error(sweeper, "rtol", 0), 1e-4, delta=1e-12)  # m; the finest of the line
+        sweep.rows.append(row_of(0.0612, tight, REFERENCE))
+        self.assertAlmostEqual(line_error(sweeper, "rtol", 0), 2e-4, delta=1e-12)
+
+    def test_a_datum_moves_a_height_by_the_centre_of_the_solids(self):
+        """Of 31.0 mm 0.7 % more, where the height on slabs shows 0.33 %."""
+        given = row_of(0.0610, centre=0.0310)
+        share = of_input(row_of(0.0612, centre=1.007 * 0.0310), given, "bed_height", 0.0033)
+        self.assertAlmostEqual(share.value, 0.007, delta=1e-12)
+        self.assertIn("centre of the solids", share.note)
+        self.assertEqual(of_input(row_of(0.0612), given, "bed_height", 0.0033).value, 0.0033, "no profile")
+        self.assertEqual(of_input(row_of(0.0612, centre=0.04), given, "mixing", 0.0033).value, 0.0033)
 
 
 class Regime(unittest.TestCase):
@@ -224,6 +254,7 @@ class Quantities(unittest.TestCase):
         same = self.quantities_of(self.run_of(40, [0.1]), 40)
         self.assertEqual(same.values["bed_height"].mean, 0.1)
         self.assertEqual(same.values["pressure_drop"].mean, 0.9)
+        self.assertAlmostEqual(same.centre, 0.05, delta=1e-12)
         coarse = self.quantities_of(self.run_of(20, [0.1]), 40)
         # Of 20 slabs of 10 mm the half of 0.5 is passed midway between the centres at 95 and 105 mm, of 40 between 97.5 and 102.5 mm.
         self.assertAlmostEqual(coarse.values["bed_height"].mean, 0.1, delta=1e-12)
