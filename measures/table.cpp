@@ -28,4 +28,17 @@ std::vector<Kind> named_species(const std::vector<std::string>& species) {
   return kinds;
 }
 
+std::vector<Kind> divided_species(const std::vector<std::string>& species) {
+  std::vector<Kind> kinds = named_species(species);
+  std::erase_if(kinds, [](const Kind& kind) { return kind.members.size() < 2; });
+  return kinds;
+}
+
+core::Field sum_of(const std::vector<core::Field>& fractions, Members members) {
+  core::Field sum = fractions[members.front()];
+  for (const std::size_t j : members.subspan(1))
+    for (std::size_t c = 0; c < sum.size(); ++c) sum[c] += fractions[j][c];
+  return sum;
+}
+
 }  // namespace polybed::measures

@@ -11,6 +11,8 @@
 #include <variant>
 #include <vector>
 
+#include "core/numerics/field.hpp"
+
 namespace polybed::measures {
 
 using Value = std::optional<double>;  ///< empty: there is nothing to measure
@@ -37,6 +39,10 @@ struct Kind {
 
 /// The species as the case names them, in its order: size classes count as one.
 [[nodiscard]] std::vector<Kind> named_species(const std::vector<std::string>& species);
+
+/// Those with size classes, and the sum of the classes' fractions in cells.
+[[nodiscard]] std::vector<Kind> divided_species(const std::vector<std::string>& species);
+[[nodiscard]] core::Field sum_of(const std::vector<core::Field>& fractions, Members members);
 
 /// The readers of a measure.
 struct Readers {

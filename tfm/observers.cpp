@@ -48,6 +48,8 @@ std::vector<core::FieldName> field_names(const Constants& constants, bool temper
     if (temperature) names.push_back({"theta_" + name});
   }
   if (compressible) names.insert(names.end(), {{"total_pressure"}, {"density_fluid"}});
+  for (const measures::Kind& kind : measures::divided_species(constants.name))
+    names.push_back({.name = "phi_" + kind.name, .sum = true});
   return names;
 }
 
@@ -258,6 +260,10 @@ void Observers::write_fields(double time) {
     values.push_back({total});
     values.push_back({fields.fluid.compression.density});
   }
+  std::vector<core::Field> sums;
+  for (const measures::Kind& kind : measures::divided_species(model_.constants().name))
+    sums.push_back(measures::sum_of(fields.solids.fraction, kind.members));
+  for (const core::Field& sum : sums) values.push_back({sum});
   all.over(ranks_);
   core::on_first(ranks_, [&] { files_->profiles.write_row(time, rows); });
   fields_->write_step(time, values);

@@ -89,15 +89,19 @@ void check_sizes(const Grid& grid, const FieldName& field, const FieldValues& va
   if (!fits) throw std::invalid_argument("the values of " + field.name + " do not fit the grid");
 }
 
+/// Whether ParaView gets its own copy: it shows only vectors with three components.
+bool is_copied(const Grid& grid, const FieldName& field) { return field.sum || (field.vector && grid.dimensions == 2); }
+
 std::vector<BlockData> step_data(const Grid& grid, std::span<const FieldName> names,
                                  std::span<const FieldValues> values) {
   std::vector<BlockData> data;
   for (std::size_t n = 0; n < names.size(); ++n) {
     const FieldName& field = names[n];
-    data.push_back(
-        cell_data(grid, "step/" + field.name, values[n], field.vector ? grid.dimensions : 0, Packing::small));
-    if (field.vector && grid.dimensions == 2)
-      data.push_back(cell_data(grid, "paraview/" + field.name, values[n], 3, Packing::small_single));
+    if (!field.sum)
+      data.push_back(
+          cell_data(grid, "step/" + field.name, values[n], field.vector ? grid.dimensions : 0, Packing::small));
+    if (is_copied(grid, field))
+      data.push_back(cell_data(grid, "paraview/" + field.name, values[n], field.vector ? 3 : 0, Packing::small_single));
   }
   return data;
 }
@@ -152,10 +156,9 @@ std::string geometry(const Grid& grid) {
   return text + "        </Geometry>\n";
 }
 
-/// ParaView shows only vectors with three components; a 2-D run stores a padded copy for it.
 std::string attribute(const Grid& grid, const FieldName& field, const std::string& file, const char* group = "step") {
   const std::string shape = dimensions(grid, 0);
-  const bool copied = field.vector && grid.dimensions == 2;
+  const bool copied = is_copied(grid, field);
   const std::string item = data_item(field.vector ? shape + " 3" : shape, copied ? 4 : 8,
                                      fmt::format("{}:/{}/{}", file, copied ? "paraview" : group, field.name));
   return fmt::format(

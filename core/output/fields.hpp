@@ -19,6 +19,7 @@ namespace polybed::core {
 struct FieldName {
   std::string name;     ///< "voidage", "phi_fine", "u_fluid"
   bool vector = false;  ///< one component per dimension of the grid
+  bool sum = false;     ///< of other stored fields: only for ParaView, in single precision
 };
 
 /// The values of one field: a padded field per component, as core/numerics/grid.hpp lays it out.

@@ -19,6 +19,8 @@ std::vector<core::FieldName> field_names(const std::vector<std::string>& species
     names.push_back({"u_" + name, true});
   }
   if (compressible) names.insert(names.end(), {{"total_pressure"}, {"density_fluid"}});
+  for (const measures::Kind& kind : measures::divided_species(species))
+    names.push_back({.name = "phi_" + kind.name, .sum = true});
   return names;
 }
 
@@ -79,6 +81,7 @@ std::vector<core::FaceField> mean_velocities(const core::Grid& grid, const fluid
 FluidOutput::FluidOutput(const Coupling& coupling, std::vector<std::string> species,
                          const std::filesystem::path& directory, std::optional<double> resume_time)
     : species_(species.size()),
+      divided_(measures::divided_species(species)),
       smoothing_(core::whole_column(coupling.flow().grid()), coupling.kernel_width(),
                  !coupling.flow().boundaries().has_outlet()),
       round_(coupling.gather().round()),
@@ -101,6 +104,9 @@ void FluidOutput::write(double time, const Coupling::Column& column, const core:
     values.push_back(components(grid, means[j]));
   }
   if (!column.density.empty()) values.insert(values.end(), {{column.total_pressure}, {column.density}});
+  std::vector<Field> sums;
+  for (const measures::Kind& kind : divided_) sums.push_back(measures::sum_of(column.fraction, kind.members));
+  for (const Field& sum : sums) values.push_back({sum});
   fields_.write_step(time, values);
 }
 

@@ -11,6 +11,7 @@
 #include "core/output/particles.hpp"
 #include "dem/coupling/coupling.hpp"
 #include "fluid/smoothing.hpp"
+#include "measures/table.hpp"
 
 namespace polybed::dem {
 
@@ -36,6 +37,7 @@ class FluidOutput {
 
  private:
   std::size_t species_;
+  std::vector<measures::Kind> divided_;
   fluid::Smoothing smoothing_;
   std::shared_ptr<const RoundWeights> round_;
   core::FieldWriter fields_;

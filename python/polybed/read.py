@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import functools
 import os
+from collections.abc import Iterable
 from itertools import count, takewhile
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -52,6 +53,12 @@ def kinds_among(names: list[str]) -> dict[str, list[str]]:
     return found
 
 
+def sums_among(names: Iterable[str]) -> dict[str, list[str]]:
+    """Volume fractions of species with size classes, each with those of its classes: {"phi_sand": ["phi_sand.1", "phi_sand.2"]}."""
+    found = kinds_among([name for name in names if name.startswith("phi_")])
+    return {whole: parts for whole, parts in found.items() if len(parts) > 1}
+
+
 class Run:
     """A run directory: run.card has the results, run.frame() the history, run.dataset() the fields, run.names() the names for run.quantity().
     Fields are also attributes: run.voidage[-1] is the last one stored, [y][x]."""
@@ -71,9 +78,12 @@ class Run:
                     values, cells = file["grid"]["open"][...], tuple(len(self.faces[axis]) - 1 for axis in "zyx")
                     self.open = fits(values, cells[3 - values.ndim :], "grid/open")
         self.fields: list[str] = []
+        self._sums: dict[str, list[str]] = {}
         if len(self.time):
             with self._open_step(0) as file:
                 self.fields = sorted(file["step"])
+            self._sums = sums_among(self.fields)
+            self.fields = sorted([*self.fields, *self._sums])
         self.particles = Particles(self._folder)
 
     def __repr__(self) -> str:
@@ -93,13 +103,13 @@ class Run:
     def fields_at(self, step, names):
         """Fields of a stored step by name, which is quicker than one by one."""
         cells = tuple(len(self.faces[axis]) - 1 for axis in "zyx")
-        found = {}
+
+        def stored(file, name):
+            values = file["step"][name][...]
+            grid = cells if values.shape[:3] == cells else cells[1:]
+            return fits(values, (*grid, len(grid)) if name.startswith("u_") else grid, name)
         with self._open_step(step) as file:
-            for name in names:
-                values = file["step"][name][...]
-                grid = cells if values.shape[:3] == cells else cells[1:]
-                found[name] = fits(values, (*grid, len(grid)) if name.startswith("u_") else grid, name)
-        return found
+            return {name: functools.reduce(np.add, (stored(file, one) for one in self._sums.get(name, [name]))) for name in names}
 
     def field(self, name: str) -> Series:
         """A field over time, as a sequence of arrays [y][x] or [z][y][x], a vector with its components behind."""
@@ -141,7 +151,7 @@ class Run:
     @property
     def species(self) -> list[str]:
         """Names of the species, in the order of the case, which the columns of the history keep."""
-        stored = [name[len("phi_") :] for name in self.fields if name.startswith("phi_")] or self.particles.species
+        stored = [name[len("phi_") :] for name in self.fields if name.startswith("phi_") and name not in self._sums] or self.particles.species
         columns = [column[len("centre_") : -len("_m")] for column in self.history if column.startswith("centre_")]
         return [name for name in columns if name in stored] + [name for name in stored if name not in columns]
 
@@ -171,14 +181,15 @@ class Run:
 
     @property
     def profiles(self) -> dict[str, np.ndarray]:
-        """profiles.h5: a dictionary of time_s [time], y_m [y] and profiles [time][y]."""
+        """profiles.h5: a dictionary of time_s [time], y_m [y] and profiles [time][y], of species with size classes also their phi."""
         path = self._folder.file("profiles.h5")
         if not path.exists():
             return {}
         with open_hdf5(path, "polybed profiles") as file:
             axes = {name: rising(file[name][:], name) for name in ("time_s", "y_m")}
             shape = tuple(map(len, axes.values()))
-            return axes | {name: fits(data[...], shape, name) for name, data in file.items() if name not in axes}
+            found = axes | {name: fits(data[...], shape, name) for name, data in file.items() if name not in axes}
+        return found | {whole: sum(found[one] for one in parts) for whole, parts in sums_among(found).items()}
 
     def quantity(self, name: str, source: str | None = None) -> quantities.Quantity:
         """What is called so in the history, the profiles or the fields, with its unit; see polybed.quantities.find."""
@@ -187,7 +198,8 @@ class Run:
     def form_of(self, name: str) -> tuple[tuple[int, ...], np.dtype]:
         """Shape and type of a field at one stored time."""
         with self._open_step(0) as file:
-            return file["step"][name].shape, file["step"][name].dtype
+            stored = file["step"][self._sums.get(name, [name])[0]]
+            return stored.shape, stored.dtype
 
     def frame(self) -> Any:
         """The history as a pandas.DataFrame over time_s; see polybed.frames.frame."""

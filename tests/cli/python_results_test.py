@@ -8,6 +8,7 @@ import re
 import sys
 from unittest import mock
 
+import h5py
 import numpy as np
 
 import program
@@ -65,6 +66,24 @@ class Results(Scratch):
         both = [polybed.run(CASE, model, SHORT, self.folder / model, "2 ms", quiet=True) for model in ("tfm", "dem")]
         self.assertEqual(list(polybed.table(both)["model"]), ["tfm", "dem"])
         self.assertNotIn("model", polybed.table(both[:1]))
+
+    def test_a_species_with_size_classes_has_their_sum(self):
+        """In fields and profiles, and for ParaView: to the rounding of single precision."""
+        sizes = '[[species]]\nname = "sand"\ndensity = 1395\ndistribution = "lognormal"\nmedian = "1 mm"\ndeviation = 0.2\nclasses = 2\n'
+        case = self.write("case.toml", program.small_bed("2 ms").replace(program.TWO_SIZES, sizes).replace("[0.8, 0.2]", "[1]"))
+        for model in of_program.MODELS:
+            run = polybed.run(case, model, output=self.folder / model, quiet=True)
+            self.assertEqual(run.species, ["sand.1", "sand.2"])
+            for source in ("fields", "profiles"):
+                whole, first, second = (run.quantity(name, source).values for name in ("phi_sand", "phi_sand.1", "phi_sand.2"))
+                np.testing.assert_array_equal(whole, first + second)
+                self.assertGreater(whole.max(), 0.3, "the start has 0.4")
+            np.testing.assert_array_equal(run.dataset().phi_sand, run.phi_sand[:])
+            items = re.findall(r'Name="phi_sand".*\n +<DataItem.*Precision="4".*>fields/(.*):(/paraview/phi_sand)<', (run.directory / "fields.xdmf").read_text())
+            self.assertEqual(len(items), len(run.time))
+            for step, (name, place) in enumerate(items):
+                with h5py.File(run.directory / "fields" / name) as file:
+                    np.testing.assert_allclose(file[place], run.phi_sand[step], rtol=np.finfo(np.float32).eps)
 
     def test_a_wrong_name_is_answered_with_the_right_one(self):
         run = self.run_short()
