@@ -41,7 +41,15 @@ class UnknownNameError(PlainError, KeyError):
     __str__ = BaseException.__str__  # KeyError shows its text in quotation marks
 
 
-class NoProgramError(PlainError, FileNotFoundError):
+class ArgumentError(PlainError, ValueError, TypeError):
+    """An argument that a function does not take."""
+
+
+class MissingError(PlainError, FileNotFoundError):
+    """There is no such file or run."""
+
+
+class NoProgramError(MissingError):
     """There is no program to run."""
 
 

@@ -15,7 +15,7 @@ from typing import Any
 import h5py
 import numpy as np
 
-from polybed.errors import PlainError, UnknownNameError
+from polybed.errors import MissingError, PlainError, UnknownNameError
 
 VERSION = 1  # of every kind of file
 
@@ -70,7 +70,7 @@ def opened(path):
     try:
         number = os.open(path, os.O_RDONLY | os.O_NONBLOCK | os.O_CLOEXEC)
     except FileNotFoundError as error:
-        raise FileNotFoundError(f"{path} is missing: make it again with polybed, or restore it from a copy") from error
+        raise MissingError(f"{path} is missing: make it again with polybed, or restore it from a copy") from error
     mode = os.fstat(number).st_mode
     if stat.S_ISREG(mode):
         return os.fdopen(number, "rb")

@@ -3,6 +3,7 @@
 import tomllib
 from pathlib import Path
 
+from polybed.errors import MissingError
 from polybed.files import DamagedError, ReplacedError, contents_of, read_json
 
 # Any of them makes a run directory; an empty one belongs to a run that starts.
@@ -22,7 +23,7 @@ class RunFolder:
         self.path = Path(directory)
         names = {path.name for path in self.path.iterdir()} if self.path.is_dir() else {""}
         if names and not names & CONTENTS:
-            raise FileNotFoundError(f"{directory} is no run directory{'; it contains some: use polybed.table' if runs_in(self.path) else ''}")
+            raise MissingError(f"{directory} is no run directory{'; it contains some: use polybed.table' if runs_in(self.path) else ''}")
         self._record, self._stamp, self._identity = {}, None, None
         self.record()
 

@@ -8,6 +8,8 @@ import tomllib
 from collections.abc import Iterator, Mapping
 from typing import Any
 
+from polybed.errors import ArgumentError
+
 Value = Any  # text, number, truth, list or dictionary of such; array or number of numpy
 Overrides = Mapping[str, Value]
 
@@ -24,7 +26,7 @@ def plain(value: Value, key: str) -> Value:
         return {name: plain(entry, key) for name, entry in value.items()}
     if isinstance(value, (str, bool, int, float)):
         return value
-    raise TypeError(f"{key}: a value of type {type(value).__name__} ({value!r}); allowed are texts, numbers, lists, arrays and dictionaries")
+    raise ArgumentError(f"{key}: a value of type {type(value).__name__} ({value!r}); allowed are texts, numbers, lists, arrays and dictionaries")
 
 
 def toml(value: Value) -> str:
@@ -39,7 +41,7 @@ def toml(value: Value) -> str:
 def flat(overrides: Overrides | None, table: str = "") -> Iterator[tuple[str, Value]]:
     """(key, value) with dots in the key for each level of dictionaries: {"tfm": {"rtol": 1e-4}} is tfm.rtol."""
     if not isinstance(overrides, Mapping | None):
-        raise TypeError(f"overrides: {overrides!r} is no dictionary of keys of the case file, {{'tfm.rtol': 1e-4}}")
+        raise ArgumentError(f"overrides: {overrides!r} is no dictionary of keys of the case file, {{'tfm.rtol': 1e-4}}")
     for name, value in (overrides or {}).items():
         key = f"{table}{name}"
         if isinstance(value, dict):

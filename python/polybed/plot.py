@@ -7,6 +7,7 @@ import sys
 import warnings
 from pathlib import Path
 
+from polybed.errors import MissingError
 from polybed.packages import needed
 from polybed.progress import Bar
 
@@ -58,7 +59,7 @@ def step_of(run, time):
     """Number of the stored step nearest to a time, of the last worth showing if None; a time that is not covered is refused."""
     stored, what = stored_times(run), "particles" if len(run.particles) else "fields"
     if len(stored) == 0:
-        raise FileNotFoundError(f"{run.directory} has no stored fields yet, and no particles")
+        raise MissingError(f"{run.directory} has no stored fields yet, and no particles")
     if time is None:
         return step_shown(run.particles.count) if len(run.particles) else len(stored) - 1
     first, last = stored[0], stored[-1]

@@ -16,7 +16,7 @@ from typing import Any, ParamSpec, TypeVar
 
 from polybed.checks import Check
 from polybed.ending import NUMBERS
-from polybed.errors import ProgramError
+from polybed.errors import ArgumentError, ProgramError
 from polybed.files import FAULTS, MISFITS, read_json
 from polybed.overrides import Overrides, Value, plain, toml, words
 from polybed.progress import BarOfRuns, put
@@ -164,7 +164,7 @@ def made(case: Place, model: str, words: list[str], known: tuple[str, str], rank
     there = record_in(output)
     goes_on = resume and has_checkpoint(output) and not str(there.get("state")).startswith("failed")
     if goes_on and there.get("model", model) != model:
-        raise ValueError(f"{output} contains a run by {there['model']}: name another output, or leave out resume to replace it")
+        raise ArgumentError(f"{output} contains a run by {there['model']}: name another output, or leave out resume to replace it")
     if goes_on and not to_steady and (time := later(output, model, text)):
         tell(f"warning: {output} contains this run up to {time:g} s already, beyond `until`: opened as it is\n")
         return read(output)
@@ -178,7 +178,7 @@ def made(case: Place, model: str, words: list[str], known: tuple[str, str], rank
 
 def must_be_model(model: str) -> None:
     if model not in MODELS:
-        raise ValueError(f"there is no model {model!r}; there are {', '.join(MODELS)}")
+        raise ArgumentError(f"there is no model {model!r}; there are {', '.join(MODELS)}")
 
 
 @names_itself
@@ -234,12 +234,12 @@ def sweep(case: Place, key: str | Mapping[str, Iterable[Value]], values: Iterabl
     """
     must_be_model(model)
     if at_once < 1:
-        raise ValueError(f"at_once is {at_once}; it is 1 or more")
+        raise ArgumentError(f"at_once is {at_once}; it is 1 or more")
     axes = {key: values} if isinstance(key, str) else key
     lists = [list(each) if isinstance(each, Iterable) and not isinstance(each, str) else [each] for each in axes.values()]
     each = [dict(zip(axes, point)) for point in itertools.product(*lists)]
     if not each:
-        raise ValueError(f"a sweep needs values for {' and '.join(axes) or 'a key'}")
+        raise ArgumentError(f"a sweep needs values for {' and '.join(axes) or 'a key'}")
     folder = Path(output) if output else Path("runs") / f"{name_of(case)}-{model}-sweep"
     words = [settings(dict(overrides or {}) | point, until) for point in each]
     bar = BarOfRuns(len(each), quiet)

@@ -73,6 +73,10 @@ class Errors(unittest.TestCase):
             self.assertRegex(first, f"^polybed.DamagedError: {folder}/run.json is damaged: .*; make it again")
             self.assertEqual(second, f"  {script}:2: polybed.read({folder!r})")
 
+    def test_so_is_a_wrong_argument_of_the_user(self):
+        for wrong in ("run('x.toml', 'tmf')", "read('/')", "sweep('x.toml', 'tfm.rtol', [1e-3], at_once=0)", "check('x.toml', 'tfm.rtol')"):
+            self.assertRegex(self.fails(f"import polybed; polybed.{wrong}"), r"^polybed\.(Argument|Missing)Error: [^\n]*\n$")
+
     def test_other_errors_are_shown_as_ever(self):
         self.assertIn("Traceback", self.fails("import polybed; polybed.read(1 / 0)"))
         self.assertIn("mine", self.fails("import sys; sys.excepthook = lambda *_: sys.stderr.write('mine'); import polybed; "
