@@ -22,12 +22,15 @@
 #include "multiscale/effects/left_out.hpp"
 #include "multiscale/estimate/estimate.hpp"
 #include "multiscale/particle_requirements.hpp"
+#include "multiscale/program.hpp"
 #include "multiscale/requirements.hpp"
 #include "multiscale/roles.hpp"
 #include "multiscale/run_record.hpp"
 #include "multiscale/scene_rules.hpp"
 #include "multiscale/scene_warnings.hpp"
+#include "relevance/advised_drag.hpp"
 #include "relevance/drag_law.hpp"
+#include "relevance/situation.hpp"
 #include "tfm/model.hpp"
 #include "tfm/step_estimate.hpp"
 
@@ -74,11 +77,18 @@ void note_drag(const core::Scene& scene, Derived& derived) {
     return;
   }
   if (scene.effects.contains("partition")) return note_partition(scene, derived);
+  const relevance::Survey survey = relevance::survey(scene);
+  const std::string better = relevance::advised_drag(scene, survey.drag_scene).partition;
+  const bool could = core::is_law(better) && relevance::is_mean_law(named->second);
+  const std::string what_to_do = could && survey.mixture_part > scene.chooser.tolerance
+                                     ? fmt::format("; take partition = \"{}\"", better)
+                                     : std::string();
   for (const closures::DragLawInfo& law : closures::drag_laws())
     if (law.name == named->second && !law.obeys_sum_rule && scene.species.size() > 1)
       derived.notes.push_back("drag = \"" + law.name +
                               "\" acts on each species by itself: in a mixture the sum of the drags is not "
-                              "that of the pressure drop, which is therefore not exact");
+                              "that of the pressure drop, which is therefore not exact" +
+                              what_to_do);
 }
 
 /// Notes effects in the case that the two-fluid model has no law for, with the consequence of each.
@@ -231,8 +241,16 @@ void add_particles(const core::Scene& scene, const ParticleRequirements& need, s
   lines.push_back(card_line("", fmt::format("step {:.2g} s, limited by {}", need.limits.dt, need.limits.limited_by)));
 }
 
+/// Another command on the same case, as it can be typed.
+std::string command_on(const RunOptions& options, const char* name) {
+  std::string command = fmt::format("{} {} {}", typed_program(), name, core::shell_word(options.case_path.string()));
+  for (const std::string& setting : options.overrides) command += " --set " + core::shell_word(setting);
+  return command;
+}
+
 /// Prints title, card, notes; counts those that do not fit on the screen.
-void print_screen(const core::Scene& scene, std::vector<std::string> lines, const std::vector<std::string>& notes) {
+void print_screen(const core::Scene& scene, const RunOptions& options, std::vector<std::string> lines,
+                  const std::vector<std::string>& notes) {
   const std::string title = scene.title.empty() ? "a case without a title" : scene.title;
   core::put(stdout, core::Colour::bold, title + "\n");
   for (const std::string& line : lines) core::print("{}\n", line);
@@ -243,8 +261,9 @@ void print_screen(const core::Scene& scene, std::vector<std::string> lines, cons
     core::put(stdout, core::Colour::yellow, "note:");
     core::print(" {}\n", notes[n]);
   }
-  if (shown < notes.size()) core::print("and {} more notes: polybed check --details\n", notes.size() - shown);
-  core::print("more: --details (numerics, memory), --resolved (all keys); polybed effects, polybed estimate\n");
+  if (shown < notes.size()) core::print("and {} more notes: --details\n", notes.size() - shown);
+  core::print("more: --details (numerics, memory), --resolved (all keys); {}; {}\n", command_on(options, "effects"),
+              command_on(options, "estimate"));
 }
 
 void print_json(core::Json json, const core::Scene& scene, const std::vector<std::string>& lines,
@@ -301,7 +320,7 @@ void check_particle_scene(const core::Scene& scene, const std::vector<std::strin
     json["refused"] = refusals_of(scene);
     return print_json(std::move(json), scene, lines, notes);
   }
-  print_screen(scene, lines, notes);
+  print_screen(scene, options, lines, notes);
 }
 
 /// Requirements as particles of a case that both models run, if it defines contacts. Reasons against that are added to
@@ -378,7 +397,7 @@ void run_check(const RunOptions& options) {
     if (json["refused"]["dem"].empty()) json["refused"]["dem"] = hindrances;  // found only by placing the particles
     return print_json(std::move(json), scene, lines, derived.notes);
   }
-  print_screen(scene, lines, derived.notes);
+  print_screen(scene, options, lines, derived.notes);
 }
 
 }  // namespace

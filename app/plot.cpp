@@ -10,6 +10,8 @@
 #include "core/error.hpp"
 #include "core/output/directory.hpp"
 #include "core/output/files.hpp"
+#include "core/print.hpp"
+#include "multiscale/program.hpp"
 #include "multiscale/python_module.hpp"
 
 namespace polybed::app {
@@ -52,8 +54,8 @@ fs::path run_of(const fs::path& given) {
   const fs::path file = folder ? given / "case.toml" : given, run = default_run_directory(file, "tfm");
   for (const fs::path& directory : {run, default_run_directory(file, "dem")})
     if (is_run(directory)) return directory;
-  throw core::FileError(
-      fmt::format("{}: no run of it in {}; polybed tfm {} makes one", given.string(), run.string(), file.string()));
+  throw core::FileError(fmt::format("{}: no run of it in {}; {} tfm {} makes one", given.string(), run.string(),
+                                    typed_program(), core::shell_word(file.string())));
 }
 
 double time_of(const std::string& text) {

@@ -173,8 +173,8 @@ void expect(const core::Scene& scene, const Slices& slices, const Balance& balan
   }
   const bool bubbles = fluid.density < relevance::lightest_liquid;
   const bool packed_start = scene.bed.start_solids_fraction == scene.bed.solids_fraction;
-  if (!bubbles && packed_start && bed.leaving.empty() && slices.empty())
-    bed.rising_time = rising_time(bed, solids / (1 - balance.packed), scene.column.size[1]);
+  if (!bubbles && packed_start && slices.empty())
+    bed.rising_time = rising_time(bed, solids / stays / (1 - balance.packed), scene.column.size[1]);
 }
 
 /// From the rows in docs/record/validation.md with this kind of bed.

@@ -11,6 +11,7 @@
 #include "closures/hopper_discharge.hpp"
 #include "core/progress.hpp"
 #include "multiscale/card/velocity_text.hpp"
+#include "multiscale/program.hpp"
 
 namespace polybed::multiscale {
 
@@ -280,7 +281,8 @@ std::vector<std::string> expectation_lines(const core::Scene& scene, const BedOf
       text += fmt::format("; the run ends at {:.4g} s, too early: see --until steady", scene.run.until);
     lines.push_back(card_line("steady", text));
   }
-  if (!bed.validity.empty()) lines.push_back(card_line("validity", bed.validity + "; polybed validate --list"));
+  if (!bed.validity.empty())
+    lines.push_back(card_line("validity", fmt::format("{}; {} validate --list", bed.validity, typed_program())));
   return lines;
 }
 

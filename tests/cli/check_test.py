@@ -1,10 +1,11 @@
 #!/usr/bin/python3
 """What `polybed check` says a case will need, against runs of it. Usage: check_test.py PROGRAM"""
 import re
+import shlex
 import tomllib
 
 import program
-from program import CASE, DONE, SMALL, Scratch, peak_memory, run, strict_json
+from program import CASE, DONE, ROOT, SMALL, Scratch, peak_memory, run, small_bed, strict_json
 
 
 def answer(*words):
@@ -108,6 +109,23 @@ class Needs(Scratch):
         self.assertEqual(len(notes(jets=["1.0"])), 2)
         both = notes(*setting(inlet__superficial_velocity="1.0"), jets=["1.0"])
         self.assertEqual([n.split("'")[0] for n in both], ["the inlet", "jet 1"] * 2)
+
+    def test_its_commands_run_as_they_are_printed(self):
+        case = self.write("my case.toml", small_bed("20 ms"))
+        shown = self.ends(DONE, "check", case, "--set", 'species.fine.diameter="0.9 mm"').stdout
+        commands = [shlex.split(command) for command in re.search(r"(?m)^more: .*keys\); (.*)$", shown)[1].split("; ")]
+        self.assertEqual([words[:2] for words in commands], [["polybed", "effects"], ["polybed", "estimate"]])
+        self.assertIn('species.fine.diameter="0.9 mm"', commands[0])
+        for words in commands:
+            self.ends(DONE, *words[1:])
+
+    def test_a_mixture_without_a_partition_is_told_which_to_take(self):
+        sizes, told = "0.8 mm", 'note: drag = "richardson_zaki" acts on each species by itself: .*not exact'
+        for other, ends in (("0.5 mm", '; take partition = "brinkman_oseen"'), (sizes, "")):
+            species = ", ".join(f'{{name="{name}", diameter="{size}", density={density}}}' for name, size, density in (("a", sizes, 2650), ("b", other, 4000)))
+            shown = self.ends(DONE, "check", ROOT / "cases/templates/liquid-bed/case.toml", "--set", f"species=[{species}]", "--set",
+                              "bed.volume_share=[0.7, 0.3]").stdout
+            self.assertRegex(shown, f"(?m)^{told}{ends}$")
 
     def test_memory_is_that_of_a_run(self):
         """On three sizes with either integrator: 10 % was seen; twice that for what other versions of the libraries take."""
