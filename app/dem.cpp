@@ -137,7 +137,7 @@ class DemRun final : public CaseRun {
             model_.limits().dt,
             model_.limits().limited_by,
             observers_->bed_height(),
-            energy != nullptr ? fmt::format("energy at {} of its limit", relevance::percent(energy->share()))
+            energy != nullptr ? fmt::format("closest to its limit: energy, {}", relevance::percent(energy->share()))
                               : fmt::format("{} contacts", observers_->totals().contacts)};
   }
 

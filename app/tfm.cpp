@@ -114,21 +114,28 @@ class TfmRun final : public CaseRun {
 
   bool after_step() override {
     observers_->log_step();
-    const std::string& limit = model_.last_step().limited_by;
-    ++limits_[limit.substr(0, std::min(limit.find(" at ("), limit.find(": ")))];  // without the place
+    ++limits_[limit()];
     watch(monitor_.get(), model_);
     return CaseRun::after_step();
   }
 
   core::ProgressLine line() override {
     const measures::WorstInvariant& worst = observers_->invariants().nearest();
-    const tfm::StepLine& step = model_.last_step();
+    const double carried = observers_->force_balance();
+    const std::string drop =
+        carried != 0 ? fmt::format("pressure drop {:.3g} of the weight  ", carried) : std::string();
     return {model_.time(),
             scene_.run.until,
-            step.step,
-            step.limited_by,
+            model_.last_step().step,
+            limit(),
             observers_->bed_height(),
-            fmt::format("{} at {} of its limit", worst.name, relevance::percent(worst.share()))};
+            fmt::format("{}closest to its limit: {}, {}", drop, worst.name, relevance::percent(worst.share()))};
+  }
+
+  /// What limits the last step, without the place.
+  [[nodiscard]] std::string limit() const {
+    const std::string& limited_by = model_.last_step().limited_by;
+    return limited_by.substr(0, std::min(limited_by.find(" at ("), limited_by.find(": ")));
   }
 
   core::Checkpoint checkpoint() override {

@@ -73,7 +73,8 @@ void Progress::show(const ProgressLine& line) {
   const std::string speed =
       share < enough_to_tell ? "" : fmt::format(", {} left", duration_text(rate * (until_ - line.time)));
   const std::string bed = line.bed_height ? fmt::format("  bed {:.1f} mm", 1e3 * *line.bed_height) : "";
-  const std::string step = share < enough_to_tell ? "" : fmt::format("  dt {:.2g} s ({})", line.step, line.limited_by);
+  const std::string step =
+      share < enough_to_tell ? "" : fmt::format("  step {:.2g} s, limited by {}", line.step, line.limited_by);
   const std::string text =
       fmt::format("t {:.3f}{} s{}{}{}  {}", line.time, line.to_steady ? "" : fmt::format("/{:g}", line.until),
                   line.to_steady ? ", until steady" : speed, bed, step, line.worst_invariant);
