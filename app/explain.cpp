@@ -2,6 +2,7 @@
 #include "app/explain.hpp"
 
 #include <fmt/format.h>
+#include <strings.h>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
@@ -170,6 +171,9 @@ void run_explain(const std::string& word, bool json) {
     std::replace(joined.begin(), joined.end(), ' ', '_');
     found = meanings_of(joined, names);
   }
+  for (const Term& term : terms())  // "geldart" for "Geldart class"
+    if (found.empty() && !word.empty() && strncasecmp(term.name.c_str(), (word + " ").c_str(), word.size() + 1) == 0)
+      found.push_back(meaning_of(term));
   if (found.empty()) {
     const std::string near = core::nearest_name(word, names);
     throw core::CaseError("nothing to explain is called '" + word + "'" +

@@ -70,6 +70,7 @@ const std::vector<Term>& terms() {
       {"left out", "line of the card",
        "greatest sum of the forces that the model or the case leaves out, over the weight of a particle",
        "above chooser.tolerance: polybed effects names the forces and the lines for the case"},
+      {"recovery", "member of the card", "share of a species that has left, of its mass at the start and fed", ""},
       {"discharge", "line of the card",
        "mass per time out of dem.opening, between a tenth and nine tenths of what has left", ""},
       {"has left", "line of the card", "mass of each species that has left the column, and its share (the recovery)",

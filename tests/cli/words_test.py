@@ -124,7 +124,9 @@ class Explain(Scratch):
         self.explained(sorted(headings | {"u_mf", "u", "mixture", "settled", "dense bed"}))
 
     def test_words_as_a_card_has_them(self):
-        self.assertEqual(*(self.ends(DONE, "explain", word).stdout for word in ("carried out", "carried_out")))
+        for pair in (("carried out", "carried_out"), ("geldart", "Geldart class")):
+            self.assertEqual(*(self.ends(DONE, "explain", word).stdout for word in pair))
+        self.explained(["recovery"])
 
     def test_what_is_unknown(self):
         self.assertIn("did you mean 'cello'?", self.ends(WRONG_CASE, "explain", "celo").stderr)
