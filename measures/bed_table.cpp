@@ -25,8 +25,19 @@ Value pressure_drop_of(const Bed& bed) {
   return pressure_drop(bed.profile);
 }
 
+/// Of the solids, in units of the slabs' height.
+double volume_of(const Profile& profile) {
+  double sum = 0;
+  for (std::size_t k = 0; k < profile.slabs(); ++k) sum += profile.solids_fraction(k) * profile.area(k);
+  return sum;
+}
+
 Value centre_of(const Bed& bed, Members species) {
-  if (bed.centre.empty()) return centre(merged(bed.profile, species), 0);
+  if (bed.centre.empty()) {
+    constexpr double trace = 1e-9;  // of all solids: what rounding leaves of a species that has left
+    const Profile one = merged(bed.profile, species);
+    return volume_of(one) > trace * volume_of(bed.profile) ? centre(one, 0) : Value();
+  }
   if (species.size() == 1) return bed.centre[species[0]];
   double moment = 0, mass = 0;
   for (const std::size_t j : species)

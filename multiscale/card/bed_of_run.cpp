@@ -87,6 +87,13 @@ bool belongs_below(const core::Scene& scene, const measures::Kind& one, const me
   return a.density != b.density ? a.density > b.density : a.diameter > b.diameter;
 }
 
+/// Nearly all of a species: what remains of it says nothing about the bed.
+bool has_left(const BedOfRun& bed, const std::string& species) {
+  constexpr double most = 0.95;
+  const auto left = bed.recovery.find(species);
+  return left != bed.recovery.end() && left->second > most;
+}
+
 Layers layers_of(const core::Scene& scene, const std::vector<measures::Kind>& kinds, const Window& window,
                  const BedOfRun& bed) {
   if (!bed.height || !(bed.height->mean > 0)) return Layers::unknown;
@@ -94,7 +101,7 @@ Layers layers_of(const core::Scene& scene, const std::vector<measures::Kind>& ki
   double low = 0, high = 0;
   for (const measures::Kind& kind : kinds) {
     const std::optional<TimeMean> mean = window.mean("centre_" + kind.name + "_m");
-    if (kind.is_class || !mean) continue;
+    if (kind.is_class || !mean || has_left(bed, kind.name)) continue;
     const double centre = mean->mean;
     if (lowest == nullptr || centre < low) low = centre, lowest = &kind;
     if (highest == nullptr || centre > high) high = centre, highest = &kind;
@@ -118,10 +125,8 @@ void find_outflow(const std::vector<measures::Kind>& kinds, const Window& window
 }
 
 void find_tops(const std::vector<measures::Kind>& kinds, const Window& window, BedOfRun& bed) {
-  constexpr double most_left = 0.95;
   for (const measures::Kind& kind : kinds) {
-    const auto left = bed.recovery.find(kind.name);
-    if (kind.is_class || (left != bed.recovery.end() && left->second > most_left)) continue;
+    if (kind.is_class || has_left(bed, kind.name)) continue;
     if (const std::optional<TimeMean> top = window.mean("top_" + kind.name + "_m"))
       bed.tops.emplace_back(kind.name, *top);
   }
@@ -173,7 +178,8 @@ void judge_drift(const core::Scene& scene, const Window& window, BedOfRun& bed) 
   for (const core::Species& species : scene.species)
     settling.push_back(top == nullptr ? 0 : settling_time(scene, species, last(*top)));
   add("bed_height", settling.empty() ? 0 : *std::min_element(settling.begin(), settling.end()));
-  for (std::size_t j = 0; j < settling.size(); ++j) add("centre_" + scene.species[j].name, settling[j]);
+  for (std::size_t j = 0; j < settling.size(); ++j)
+    if (const std::string& name = scene.species[j].name; !has_left(bed, name)) add("centre_" + name, settling[j]);
   bed.drifts = measures::drifts_of(window.time, heights, scene.column.size[1] / scene.column.cells[1]);
   for (const measures::DriftOfMeasure& drift : bed.drifts) bed.steady = bed.steady.value_or(true) && drift.steady;
 }
@@ -205,12 +211,12 @@ BedOfRun bed_of_run(const core::Scene& scene, const core::History& history) {
   if (const std::optional<TimeMean> mixing = window.mean("mixing")) bed.mixing = mixing->mean;
   bed.hangs = is_light(window) && !is_pressed_down(scene, all, bed);
   bed.state = state_of(scene, window, all, bed);
+  find_outflow(kinds, window, bed);
   bed.layers = layers_of(scene, kinds, window, bed);
   bed.cell = scene.fluid.present() ? scene.column.size[1] / scene.column.cells[1] : 0;
   for (const measures::Kind& kind : measures::named_species(names))
     if (const std::optional<TimeMean> mass = window.mean("mass_" + kind.name + "_kg"))
       bed.masses.emplace_back(kind.name, mass->mean);
-  find_outflow(kinds, window, bed);
   if (!bed.hangs) find_tops(kinds, window, bed);
   if (bed.hangs) bed.height.reset(), bed.dense.reset();  // its top is the column's
   find_discharge(scene, window, all, bed);

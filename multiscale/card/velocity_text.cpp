@@ -99,7 +99,10 @@ std::string mass_text(double mass) { return mass < 1 ? with_prefix(1e3 * mass, "
 
 std::string masses_text(const std::vector<std::pair<std::string, double>>& masses) {
   std::vector<std::string> parts;
-  for (const auto& [name, mass] : masses) parts.push_back(name + " " + mass_text(mass));
+  constexpr double trace = 1e-9;  // of all solids: what rounding leaves of a species that has left
+  double all = 0;
+  for (const auto& [name, mass] : masses) all += mass;
+  for (const auto& [name, mass] : masses) parts.push_back(name + " " + mass_text(mass > trace * all ? mass : 0));
   return each(parts);
 }
 

@@ -13,6 +13,42 @@ KEYS = {"u_mf_m_s", "u_over_u_mf", "terminal_m_s", "geldart", "state", "layers",
 HEADINGS = ("bed ", "fluidises at ", "falls at ", "solids ", "mixing ", "steady ", "step ", "left out ", "time ")
 SCREEN = 25  # lines
 TEMPLATES = ROOT / "cases/templates"
+# Silt falls at some 2 mm/s, sand of two size classes at 60 and more.
+SILT = """[column]
+size = ["20 mm", "300 mm"]
+cells = [1, 60]
+sides = "periodic"
+outlet = "open"
+[fluid]
+name = "water"
+temperature = "20 degC"
+[[species]]
+name = "silt"
+diameter = "60 um"
+density = 2000
+[[species]]
+name = "sand"
+density = 2650
+distribution = "lognormal"
+median = "0.7 mm"
+deviation = 0.15
+classes = 2
+[bed]
+volume_share = [0.3, 0.7]
+static_height = "60 mm"
+solids_fraction = 0.55
+[inlet]
+superficial_velocity = "12 mm/s"
+[effects]
+others = "none"
+drag = "wen_yu"
+partition = "brinkman_oseen"
+solids_stress = "frictional"
+[run]
+until = "20 s"
+[output]
+history_every = "20 ms"
+"""
 
 
 class Card(Scratch):
@@ -62,7 +98,8 @@ class Card(Scratch):
         run = self.folder / "run"
         keys = ("column.cells=[1,30]", "inlet.superficial_velocity=5 mm/s", "run.until=5", "output.history_every=0.02", "output.every=5")
         told = self.ends(DONE, "tfm", CASE, *(word for key in keys for word in ("--set", key)), "--until", "steady", "-o", run, "--no-picture").stderr
-        self.assertRegex(told, r"(?m)^t [\d.]+ s, until steady  bed ")
+        self.assertRegex(told, r"(?m)^t [\d.]+ s, until steady  bed [\d.]+ mm  step [\d.e-]+ s, limited by [a-z ]+  "
+                         r"pressure drop [\d.]+ of the weight  closest to its limit: [a-z ]+, [\d.]+ %$")
         self.assertNotRegex(told, r"(?m)^t .* left")
         record = strict_json((run / "run.json").read_text())
         self.assertEqual(record["state"], "done")
@@ -103,44 +140,8 @@ class Card(Scratch):
         self.assertAlmostEqual(card["u_over_u_mf"], 0.03 / card["u_mf_m_s"]["mixture"], places=9)
 
     def test_silt_that_leaves_does_not_count_as_bed(self):
-        """Sand of two size classes settles under silt that rises through a tall column. By hand: the silt falls at some 2 mm/s, the sand
-        at 60 and more; 12 mm/s lifts the one and hardly expands the other."""
-        silt = """[column]
-size = ["20 mm", "300 mm"]
-cells = [1, 60]
-sides = "periodic"
-outlet = "open"
-[fluid]
-name = "water"
-temperature = "20 degC"
-[[species]]
-name = "silt"
-diameter = "60 um"
-density = 2000
-[[species]]
-name = "sand"
-density = 2650
-distribution = "lognormal"
-median = "0.7 mm"
-deviation = 0.15
-classes = 2
-[bed]
-volume_share = [0.3, 0.7]
-static_height = "60 mm"
-solids_fraction = 0.55
-[inlet]
-superficial_velocity = "12 mm/s"
-[effects]
-others = "none"
-drag = "wen_yu"
-partition = "brinkman_oseen"
-solids_stress = "frictional"
-[run]
-until = "20 s"
-[output]
-history_every = "20 ms"
-"""
-        case, run = self.write("case.toml", silt), self.folder / "run"
+        """Sand settles under silt that rises through a tall column: 12 mm/s lifts the one and hardly expands the other."""
+        case, run = self.write("case.toml", SILT), self.folder / "run"
         expected = strict_json(self.ends(DONE, "check", case, "--json").stdout)["expected"]
         self.assertEqual(expected["leaving"], ["silt"])
         done = self.ends(DONE, "tfm", case, "-o", run, "--no-picture")
@@ -157,6 +158,18 @@ history_every = "20 ms"
         self.assertGreater(card["bed_height_m"]["value"], 0.2, "the silt counts")
         self.assertRegex(done.stderr, rf"(?m)^bed +fluidised.* dense bed {1e3 * dense:.4g}.* mm high \(sand up to .* mm, silt up to .* mm\)")
         self.assertRegex(done.stderr, r"(?m)^has left +sand .*, silt .*$")
+
+    def test_silt_that_has_left_says_nothing_about_the_bed(self):
+        """After 60 s some 1e-14 g are left, which still move."""
+        run = self.folder / "run"
+        done = self.ends(DONE, "tfm", self.write("case.toml", SILT), "--until", "60 s", "-o", run, "--no-picture")
+        card, rows = self.card(run), history(run)
+        self.assertGreater(card["recovery"]["silt"], 0.999)
+        self.assertRegex(done.stderr, r"(?m)^solids +silt 0 g, sand [\d.]+ g$")
+        self.assertIs(card["steady"], True)
+        self.assertIsNone(card["layers"])
+        self.assertIsNotNone(rows["centre_silt_m"][0])
+        self.assertIsNone(rows["centre_silt_m"][-1])
 
     def test_a_hopper_has_a_discharge(self):
         run = self.folder / "hopper"
@@ -308,6 +321,10 @@ class Screen(Scratch):
         heights = [law["bed_height_m"] for law in expected["by_laws_of_beds"].values()]
         self.assertTrue(min(heights) <= expected["bed_height_m"] <= max(heights), heights)
         self.assertAlmostEqual(expected["rising_time_s"], (expected["bed_height_m"] - 0.1) / (0.04 - expected["u_mf_m_s"]["mixture"]), places=12)
+        fines = strict_json(self.ends(DONE, "check", ROOT / "cases/filter-backwash/case.toml", "--json").stdout)["expected"]
+        rise, excess = fines["bed_height_m"] - fines["settled_height_m"], 0.012 - fines["u_mf_m_s"]["mixture"]
+        self.assertEqual(fines["leaving"], ["fines"])
+        self.assertAlmostEqual(fines["rising_time_s"], rise / excess, places=12)
         told = [self.ends(DONE, "check", case, "--until", until).stdout for until in ("30 s", "1 s")]
         self.assertRegex(told[0], r"(?m)^steady +after [\d.]+ s at least: the top rises no faster than u - u_mf$")
         self.assertRegex(told[1], r"(?m)^steady +after .*; the run ends at 1 s, too early: see --until steady$")
