@@ -292,7 +292,7 @@ std::vector<std::string> result_lines(const Card& card) {
   if (const std::string text = bed_text(seen); !text.empty()) lines.push_back(card_line("bed", text));
   add_velocities(card.expected, false, lines);
   if (!seen.masses.empty()) lines.push_back(card_line("solids", masses_text(seen.masses)));
-  if (seen.mixing) lines.push_back(card_line("mixing", fmt::format("{:.2f}  (1 mixed, 0 separated)", *seen.mixing)));
+  if (seen.mixing) lines.push_back(card_line("mixing", fmt::format("{:.2f}  (1 mixed, 0 separated)", std::max(*seen.mixing, 0.0))));
   if (!seen.out.empty()) lines.push_back(card_line("has left", out_text(seen)));
   if (seen.discharge) lines.push_back(card_line("discharge", mass_text(*seen.discharge) + "/s"));
   if (seen.blocked) lines.push_back(card_line("discharge", "none: nothing leaves any more, and over half remains"));
