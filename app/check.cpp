@@ -8,8 +8,8 @@
 #include <nlohmann/json.hpp>
 
 #include "app/commands.hpp"
+#include "app/drag_notes.hpp"
 #include "app/run_directory.hpp"
-#include "closures/drag.hpp"
 #include "closures/mixture.hpp"
 #include "core/case/file.hpp"
 #include "core/error.hpp"
@@ -19,6 +19,7 @@
 #include "core/timers.hpp"
 #include "fluid/inlet.hpp"
 #include "multiscale/card/card.hpp"
+#include "multiscale/card/velocity_text.hpp"
 #include "multiscale/effects/left_out.hpp"
 #include "multiscale/estimate/estimate.hpp"
 #include "multiscale/particle_requirements.hpp"
@@ -28,9 +29,6 @@
 #include "multiscale/run_record.hpp"
 #include "multiscale/scene_rules.hpp"
 #include "multiscale/scene_warnings.hpp"
-#include "relevance/advised_drag.hpp"
-#include "relevance/drag_law.hpp"
-#include "relevance/situation.hpp"
 #include "tfm/model.hpp"
 #include "tfm/step_estimate.hpp"
 
@@ -49,47 +47,6 @@ struct Derived {
   std::vector<double> terminal, reynolds;
   std::vector<std::string> notes;
 };
-
-/// Relative difference in the settled bed's drag between a partition and the mean law, at the inlet's velocity.
-void note_partition(const core::Scene& scene, Derived& derived) {
-  const double velocity = fluid::Ramp(scene.inlet.superficial_velocity).greatest();
-  std::vector<double> diameter;
-  for (const core::Species& species : scene.species) diameter.push_back(species.diameter);
-  const std::vector<double>& share = scene.bed.volume_share;
-  if (share.size() != diameter.size() || !(scene.bed.solids_fraction > 0)) return;
-  const closures::DragLaw law = relevance::drag_law_of(scene);
-  const double voidage = 1 - scene.bed.solids_fraction, mean = closures::sauter_diameter(share, diameter);
-  std::vector<double> f(share.size()), slope(share.size()), slip(share.size(), velocity);
-  closures::drag_of_mixture(law, voidage, share, diameter, slip, derived.fluid.density, derived.fluid.viscosity, f,
-                            slope);
-  const double reynolds = derived.fluid.density * velocity * mean / derived.fluid.viscosity;
-  const double deviation = closures::deviation_from_base(law, voidage, reynolds, share, diameter, f);
-  if (law.partition && std::abs(deviation) > 1e-9)
-    derived.notes.push_back(
-        fmt::format("drag of all species together: {:+.2f} % of the mean law {} in the settled bed, by {}",
-                    100 * deviation, core::law_of(scene, "drag"), core::law_of(scene, "partition")));
-}
-
-void note_drag(const core::Scene& scene, Derived& derived) {
-  const auto named = scene.effects.find("drag");
-  if (named == scene.effects.end()) {
-    derived.notes.push_back("drag is off: nothing couples the solids to the fluid");
-    return;
-  }
-  if (scene.effects.contains("partition")) return note_partition(scene, derived);
-  const relevance::Survey survey = relevance::survey(scene);
-  const std::string better = relevance::advised_drag(scene, survey.drag_scene).partition;
-  const bool could = core::is_law(better) && relevance::is_mean_law(named->second);
-  const std::string what_to_do = could && survey.mixture_part > scene.chooser.tolerance
-                                     ? fmt::format("; take partition = \"{}\"", better)
-                                     : std::string();
-  for (const closures::DragLawInfo& law : closures::drag_laws())
-    if (law.name == named->second && !law.obeys_sum_rule && scene.species.size() > 1)
-      derived.notes.push_back("drag = \"" + law.name +
-                              "\" acts on each species by itself: in a mixture the sum of the drags is not "
-                              "that of the pressure drop, which is therefore not exact" +
-                              what_to_do);
-}
 
 /// Notes effects in the case that the two-fluid model has no law for, with the consequence of each.
 void note_roles_of_particles(const core::Scene& scene, Derived& derived) {
@@ -144,7 +101,7 @@ Derived derive(const core::Scene& scene, const tfm::Model& model) {
                                             inflow.name, inflow.velocity, constants.name[j], derived.terminal[j],
                                             inflow.fate));
   }
-  note_drag(scene, derived);
+  for (std::string& note : notes_on_drag(scene, derived.fluid)) derived.notes.push_back(std::move(note));
   note_roles_of_particles(scene, derived);
   return derived;
 }
@@ -154,7 +111,7 @@ std::string weight_text(const core::Scene& scene, const BedOfCase& bed, double w
   std::string is = weight < 0 ? "upwards in the fluid" : "in the fluid: the pressure drop of the fluidised bed";
   if (scene.column.is_tapered()) is = "in the fluid, settled; less once it expands into a wider part";
   if (bed.lift) is = fmt::format("in the fluid over the bottom; pressure drop between the walls {:.4g} Pa", *bed.lift);
-  return fmt::format("{:.4g} Pa {}", std::abs(weight), is);
+  return fmt::format("{} Pa {}", plain(std::abs(weight), 4), is);
 }
 
 core::Json json_of(const BedState& bed) {

@@ -155,7 +155,7 @@ std::string mean_text(const measures::TimeMean& mean, double scale, const std::s
   constexpr double shown = 1e-4;  // of the value: four digits
   const bool is_seen = mean.interval && *mean.interval > shown * std::abs(mean.mean);
   const std::string interval = is_seen ? " ± " + one_digit(scale * *mean.interval) : "";
-  return fmt::format("{:.4g}{}{}", scale * mean.mean, interval, unit);
+  return plain(scale * mean.mean, 4) + interval + unit;
 }
 
 std::string short_time(double seconds) {
@@ -259,9 +259,8 @@ std::vector<std::string> expectation_lines(const core::Scene& scene, const BedOf
     if (bed.inlet)
       lines.push_back(card_line(
           "", "as if the jets flowed evenly through the whole bottom: a jet moves only the solids on its path"));
-    const std::string others = bed.own.height && bed.state == Fluidisation::fluidised
-                                   ? by_others(bed, &ByLaw::height, "m", top)
-                                   : std::string();
+    const std::string others =
+        bed.own.height && bed.state == Fluidisation::fluidised ? by_others(bed, &ByLaw::height, top) : std::string();
     if (!others.empty()) lines.push_back(card_line("", others));
   }
   if (!bed.expansion.empty()) {
@@ -276,7 +275,8 @@ std::vector<std::string> expectation_lines(const core::Scene& scene, const BedOf
   if (!bed.masses.empty()) lines.push_back(card_line("solids", masses_text(bed.masses)));
   if (bed.rising_time) {
     constexpr double window = 0.75;  // part of a run before the last quarter, which its card uses
-    std::string text = fmt::format("after {:.2g} s at least: the top rises no faster than u - u_mf", *bed.rising_time);
+    std::string text =
+        fmt::format("after {} at least: the top rises no faster than u - u_mf", short_time(*bed.rising_time));
     if (window * scene.run.until < *bed.rising_time)
       text += fmt::format("; the run ends at {:.4g} s, too early: see --until steady", scene.run.until);
     lines.push_back(card_line("steady", text));
@@ -292,7 +292,8 @@ std::vector<std::string> result_lines(const Card& card) {
   if (const std::string text = bed_text(seen); !text.empty()) lines.push_back(card_line("bed", text));
   add_velocities(card.expected, false, lines);
   if (!seen.masses.empty()) lines.push_back(card_line("solids", masses_text(seen.masses)));
-  if (seen.mixing) lines.push_back(card_line("mixing", fmt::format("{:.2f}  (1 mixed, 0 separated)", std::max(*seen.mixing, 0.0))));
+  if (seen.mixing)
+    lines.push_back(card_line("mixing", fmt::format("{:.2f}  (1 mixed, 0 separated)", std::max(*seen.mixing, 0.0))));
   if (!seen.out.empty()) lines.push_back(card_line("has left", out_text(seen)));
   if (seen.discharge) lines.push_back(card_line("discharge", mass_text(*seen.discharge) + "/s"));
   if (seen.blocked) lines.push_back(card_line("discharge", "none: nothing leaves any more, and over half remains"));

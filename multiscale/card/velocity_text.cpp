@@ -69,6 +69,11 @@ std::string shapes_text(const ByLaw& shape, double area) {
 
 }  // namespace
 
+std::string plain(double value, int digits) {
+  const bool fits = std::abs(value) < std::pow(10.0, digits) - 0.5;
+  return fits ? fmt::format("{:.{}g}", value, digits) : fmt::format("{:.0f}", value);
+}
+
 std::string with_prefix(double value, const char* unit) {
   const auto [factor, prefix] = prefix_of(value);
   return fmt::format("{:.3g} {}{}", factor * value, prefix, unit);
@@ -92,7 +97,8 @@ std::string velocities_text(double low, double high, double area) {
 
 std::string flow_text(double velocity, double area) {
   constexpr double litres_per_hour = 3.6e6;  // of a m3/s
-  return area > 0 ? fmt::format(" ({:.3g} l/h)", litres_per_hour * area * velocity) : "";
+  const double flow = litres_per_hour * area * velocity;
+  return area > 0 ? fmt::format(" ({} l/h)", plain(flow, 3)) : "";
 }
 
 std::string mass_text(double mass) { return mass < 1 ? with_prefix(1e3 * mass, "g") : fmt::format("{:.4g} kg", mass); }
@@ -108,8 +114,7 @@ std::string masses_text(const std::vector<std::pair<std::string, double>>& masse
 
 std::string each(const std::vector<std::string>& parts) { return fmt::format("{}", fmt::join(parts, ", ")); }
 
-std::string by_others(const BedOfCase& bed, std::optional<double> ByLaw::*number, const char* unit,
-                      std::optional<double> most) {
+std::string by_others(const BedOfCase& bed, std::optional<double> ByLaw::*number, std::optional<double> most) {
   std::vector<std::string> names;
   double low = HUGE_VAL, high = 0;
   for (const ByLaw& one : bed.others) {
@@ -120,9 +125,10 @@ std::string by_others(const BedOfCase& bed, std::optional<double> ByLaw::*number
     high = std::max(high, *value);
   }
   if (names.empty()) return "";
-  std::string range = most ? range_text(low, high, unit) : velocities_text(low, high, bed.area);
-  if (most && high >= *most)
-    range = (low < *most ? with_prefix(low, unit) + " " : std::string()) + "up to the top of the column";
+  const std::string least = plain(1e3 * low, 3), greatest = plain(1e3 * high, 3);  // heights, mm
+  std::string range =
+      most ? (least == greatest ? least : least + " to " + greatest) + " mm" : velocities_text(low, high, bed.area);
+  if (most && high >= *most) range = (low < *most ? least + " mm " : std::string()) + "up to the top of the column";
   return fmt::format("{} by laws of such beds: {}", range, each(names));
 }
 
@@ -142,7 +148,7 @@ void add_velocities(const BedOfCase& bed, bool in_full, std::vector<std::string>
     }
     lines.push_back(card_line("fluidises at", text));
     std::vector<std::string> more;
-    if (in_full) more = {spread_text(bed), by_others(bed, &ByLaw::minimum_fluidisation, "m/s", {})};
+    if (in_full) more = {spread_text(bed), by_others(bed, &ByLaw::minimum_fluidisation, {})};
     for (std::size_t n = 0; in_full && n < bed.shapes.size(); ++n) more.push_back(shapes_text(bed.shapes[n], bed.area));
     for (const std::string& one : more)
       if (!one.empty()) lines.push_back(card_line("", one));

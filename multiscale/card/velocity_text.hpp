@@ -12,6 +12,8 @@ namespace polybed::multiscale {
 /// A range, with the prefix for the greater value; one value if both read the same.
 [[nodiscard]] std::string range_text(double low, double high, const char* unit);
 
+/// So many digits, or all before the point: without a power of ten unless a number is tiny.
+[[nodiscard]] std::string plain(double value, int digits);
 /// A quantity with the prefix that gives it one to three digits before the point.
 [[nodiscard]] std::string with_prefix(double value, const char* unit);
 
@@ -31,8 +33,8 @@ namespace polybed::multiscale {
 [[nodiscard]] std::string each(const std::vector<std::string>& parts);
 
 /// The range of the laws derived from such beds, with their names; empty without any.
-/// \param most  greatest number: the column's height, above which a law gives no number
-[[nodiscard]] std::string by_others(const BedOfCase& bed, std::optional<double> ByLaw::*number, const char* unit,
+/// \param most  for heights the column's, above which a law gives none; empty for velocities
+[[nodiscard]] std::string by_others(const BedOfCase& bed, std::optional<double> ByLaw::*number,
                                     std::optional<double> most);
 
 /// Minimum fluidisation, terminal velocities and, in a gas, Geldart's classes. \param in_full  also by other laws, at

@@ -313,6 +313,15 @@ class Screen(Scratch):
         wide = self.ends(DONE, "check", CASE).stdout
         self.assertRegex(wide, r"(?m)^ +between [\d.]+ mm/s \(fine alone\) and [\d.]+ mm/s \(coarse alone\); ")
 
+    def test_a_large_bed_has_no_powers_of_ten(self):
+        large = ["--set", 'column.size=["150 mm", "2.4 m"]', "--set", 'bed.static_height="1.2 m"', "--set", 'inlet.flow_rate="6500 l/h"']
+        shown = self.ends(DONE, "check", TEMPLATES / "round-liquid-bed/case.toml", *large).stdout
+        self.assertNotRegex(shown, r"\de\+\d")
+        self.assertRegex(shown, r"(?m)^ +\d{4} to \d{4} mm by laws of such beds: ")
+        self.assertRegex(shown, r"(?m)^fluidises at .* \(\d{4} l/h\) is .* that$")
+        self.assertRegex(shown, r"(?m)^weight +1\d{4} Pa ")
+        self.assertRegex(shown, r"(?m)^steady +after \d+ s at least")
+
     def test_it_says_when_a_bed_can_be_steady(self):
         """The top of a packed bed rises at u - u_mf: from 100 mm at 40 mm/s less the velocity that the card names."""
         case = TEMPLATES / "liquid-bed/case.toml"
