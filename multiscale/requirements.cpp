@@ -19,7 +19,8 @@ namespace polybed::multiscale {
 namespace {
 
 constexpr std::size_t sample_cells = 12000;  ///< enough that their memory is visible, few enough for a second
-constexpr int sample_steps = 100;
+/// From here to 100 steps the mean time of a step changes by less than a tenth in 12 of 13 shipped cases.
+constexpr int sample_steps = 40;
 
 std::size_t cell_count(const core::Scene& scene) {
   const auto& cells = scene.column.cells;

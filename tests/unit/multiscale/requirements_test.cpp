@@ -41,6 +41,15 @@ TEST(NarrowPart, IsSmallInThreeDimensionsAndForAbsurdHeights) {
   EXPECT_EQ(part.layers[0].height, part.bed.static_height);
 }
 
+TEST(Requirements, NeedFewSteps) {
+  core::Timers timers;
+  std::unique_ptr<tfm::Model> model;
+  core::Scene scene = scenes::binary_bed(10, 12, 0.3, 0.36);
+  scene.tfm.fixed_step = 1e-5;
+  (void)requirements_of(scene, timers, model);
+  EXPECT_LE(model->time(), 40.5 * 1e-5) << "a check is short: 40 steps";
+}
+
 TEST(Requirements, GrowWithTheCase) {
   core::Timers timers;
   std::unique_ptr<tfm::Model> model;
