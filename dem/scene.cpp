@@ -13,6 +13,7 @@
 #include "core/error.hpp"
 #include "dem/holes.hpp"
 #include "dem/packing.hpp"
+#include "fluid/inlet.hpp"
 #include "relevance/drag_law.hpp"
 #include "relevance/fluid_properties.hpp"
 
@@ -68,6 +69,38 @@ void add_plates(const core::Scene& scene, Box& box) {
   if (round) box.make_bottom_a_plate();
 }
 
+/// Speed of the mixture in discharges with a pressure, m/s: under a lid what enters leaves through one of them, and the
+/// pressures outside and the weight of the starting bed above the lowest of them drive it as far as friction does not
+/// hold it.
+double speed_in_overflows(const core::Scene& scene, const relevance::FluidConstants& fluid) {
+  const core::Column& column = scene.column;
+  const bool lid = column.outlet == core::Outlet::lid;
+  double entering = fluid::Ramp(scene.inlet.superficial_velocity).greatest() * column.cross_section();  // m3/s
+  const auto see = [&](const auto& parts) {
+    for (const auto& part : parts)
+      entering += fluid::Ramp(part.superficial_velocity).greatest() * area_of(part.at, part.from, part.to, column);
+  };
+  see(scene.jets);
+  see(scene.feeds);
+  constexpr double endless = std::numeric_limits<double>::infinity();
+  double least = lid ? endless : 0, most = lid ? -endless : 0, narrowest = endless, lowest = endless;
+  for (const core::Discharge& d : scene.discharges) {
+    if (!d.pressure) continue;
+    least = std::min(least, *d.pressure);
+    most = std::max(most, *d.pressure);
+    narrowest = std::min(narrowest, area_of(d.at, d.from, d.to, column));
+    lowest = std::min(lowest, d.from.empty() ? 0 : d.from.back());
+  }
+  if (narrowest == endless) return 0;
+  double excess = 0;  // density of the solids over the fluid's
+  for (std::size_t j = 0; j < scene.bed.volume_share.size() && j < scene.species.size(); ++j)
+    excess += scene.bed.volume_share[j] * (scene.species[j].density - fluid.density);
+  const double start = scene.bed.start_solids_fraction,
+               high = start > 0 ? scene.bed.static_height * scene.bed.solids_fraction / start : 0,
+               weight = std::abs(excess) * start * column.gravity * std::max(0.0, high - lowest);
+  return (lid ? entering / narrowest : 0) + std::sqrt(2 * (most - least + weight) / fluid.density);
+}
+
 /// Speed of particles in a fluid: twice the terminal velocity of the fastest, or their initial speed, and the inflow;
 /// or a channel's speed. \param first  speed at the start, m/s
 double speed_in_fluid(const core::Scene& scene, double first) {
@@ -87,7 +120,7 @@ double speed_in_fluid(const core::Scene& scene, double first) {
     for (const auto& [t, u] : discharge.superficial_velocity) inflow = std::max(inflow, u);
   // Channels through a bed: particles in a settled bed reached 3 times the velocity between packed particles.
   const double channel = scene.bed.solids_fraction > 0 ? 4 * inflow / (1 - scene.bed.solids_fraction) : 0;
-  return std::max(2 * (fastest + inflow), channel);
+  return std::max({2 * (fastest + inflow), channel, 2 * (fastest + speed_in_overflows(scene, fluid))});
 }
 
 /// Greatest speed of a particle at rest after a collision, over the other's; at least 1.
@@ -124,6 +157,16 @@ double fall_height(const core::Scene& scene, const Materials& materials, const B
 }
 
 }  // namespace
+
+double area_of(core::ColumnFace at, const std::vector<double>& from, const std::vector<double>& to,
+               const core::Column& column) {
+  if (from.empty() && !is_side(at)) return column.cross_section(at);
+  Vector width = column.size;
+  for (std::size_t n = 0; n < from.size(); ++n)
+    width[std::size_t(axis_along(at, column.dimensions, n))] = to[n] - from[n];
+  width[std::size_t(axis_of(at))] = 1;
+  return width[0] * width[1] * width[2];
+}
 
 Box bare_box_of(const core::Column& column) {
   Box box;

@@ -11,6 +11,10 @@
 
 namespace polybed::dem {
 
+/// Area of a part of an end or side, m2; from and to as for a feed.
+[[nodiscard]] double area_of(core::ColumnFace at, const std::vector<double>& from, const std::vector<double>& to,
+                             const core::Column& column);
+
 /// The column as a box of particles. A 2-D column is periodic in its depth.
 [[nodiscard]] Box box_of(const core::Scene& scene);
 /// Its size and which sides are joined: the box without walls.

@@ -51,6 +51,9 @@ Flow::Flow(const core::Scene& scene, const core::Grid& grid, double tolerance)
       tolerance_(tolerance),
       viscous_(core::acts(scene, "fluid_stress")),
       has_open_sides_(fluid::has_open_sides(scene)),
+      driven_(std::any_of(scene.discharges.begin(), scene.discharges.end(),
+                          [](const core::Discharge& d) { return d.pressure.value_or(0) != 0; })),
+      held_(scene.bed.held),
       limited_(scene.scheme.momentum != core::Momentum::conservative),
       solver_(grid),
       fluid_(grid),
@@ -99,9 +102,24 @@ void Flow::begin(double t, const ParticlePhase& particles) {
   close_pressure(t, any, step);
   correct(any);
   std::fill(fluid_.pressure.begin(), fluid_.pressure.end(), 0.0);
+  if (driven_) begin_pressure(t);
   set_gradient();
   clear(gradient_change_);
   clear(velocity_change_);
+}
+
+/// The pressure that pressures outside the column cause at once. Without it the particles next to a port would feel all
+/// of its pressure over one cell until the first step.
+void Flow::begin_pressure(double t) {
+  const core::FaceField kept = fluid_.flux;
+  clear(fluid_.flux);
+  for_each_open_face(
+      [&](const OpenFace& f, std::size_t a, std::size_t at) { fluid_.flux[a][at] = -mobility_[a][at] * f.rise; });
+  constexpr double second = 1;  // their acceleration over a second
+  FlowStep step;
+  close_pressure(t, second, step);
+  fluid_.pressure = change_;
+  fluid_.flux = kept;
 }
 
 FlowStep Flow::advance(double t, double dt, const ParticlePhase& particles) {
@@ -165,7 +183,7 @@ void Flow::set_inlet(double t) {
     fluid_.velocity[a][std::size_t(face)] = own_flux_[a][std::size_t(face)] / fluid_.voidage[std::size_t(inside)];
   });
   for_each_open_face([&](const OpenFace& f, std::size_t a, std::size_t at) {
-    const double flux = fluid_.velocity[a][at], out = f.leaving(flux);
+    const double flux = fluid_.velocity[a][at], out = held_ ? 0 : f.leaving(flux);
     own_flux_[a][at] = flux - (1 - fluid_.voidage[std::size_t(f.inside)]) * out;
   });
   core::hold_closed(grid_, fluid_.velocity);
@@ -175,6 +193,12 @@ void Flow::set_inlet(double t) {
 void Flow::find_acceleration(double dt, const ParticlePhase& particles) {
   boundaries_.fill_velocity(fluid_.velocity, WallSlip::no_slip);
   inlet_.extend(fluid_.velocity);
+  std::vector<double> kept;  // between held particles the fluid is faster than the flux
+  if (held_)
+    for_each_open_face([&](const OpenFace& f, std::size_t a, std::size_t at) {
+      kept.push_back(fluid_.velocity[a][at]);
+      fluid_.velocity[a][at] /= fluid_.voidage[std::size_t(f.inside)];
+    });
   for_each_open_face(
       [&](const OpenFace& f, std::size_t a, std::size_t) { extend_beyond(grid_, f.at, f.face, fluid_.velocity[a]); });
   find_own_flux(particles);
@@ -185,6 +209,8 @@ void Flow::find_acceleration(double dt, const ParticlePhase& particles) {
     for (std::size_t c = 0; c < convected_[a].size(); ++c) convected_[a][c] = -dt * acceleration_[a][c];
   if (viscous_) add_viscous_stress(grid_, boundaries_, fluid_, constants_, acceleration_);
   if (compressible_) compressible_->add_gravity(fluid_, acceleration_);
+  if (auto next = kept.begin(); held_)
+    for_each_open_face([&](const OpenFace&, std::size_t a, std::size_t at) { fluid_.velocity[a][at] = *next++; });
 }
 
 /// eps U. set_inlet has set it where it is given.
@@ -228,10 +254,11 @@ void Flow::push(const Density& density, double dt, const ParticlePhase& particle
   }
   for_each_open_face([&](const OpenFace& f, std::size_t a, std::size_t at) {
     const double eps = fluid_.voidage[std::size_t(f.inside)];
-    const double mixture = eps * density.on_face(f.face, grid_.stride(int(a))) + (1 - eps) * solids_density_;
-    mobility_[a][at] = per_inertia_[a][at] = f.mobility(mixture);
+    const double own = density.on_face(f.face, grid_.stride(int(a)));
+    const OpenFace open = held_ ? f.between(eps) : f;
+    mobility_[a][at] = per_inertia_[a][at] = open.mobility(held_ ? own : eps * own + (1 - eps) * solids_density_);
     velocity_change_[a][at] =
-        dt * (f.convection(fluid_.velocity[a], fluid_.velocity[a]) - mobility_[a][at] * gradient_[a][at]);
+        dt * (open.convection(fluid_.velocity[a], fluid_.velocity[a]) - mobility_[a][at] * gradient_[a][at]);
     fluid_.flux[a][at] = fluid_.velocity[a][at] + velocity_change_[a][at];
   });
 }

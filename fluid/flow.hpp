@@ -81,6 +81,7 @@ class Flow {
   void find_own_flux(const ParticlePhase& particles);
   template <class Density>
   void push(const Density& density, double dt, const ParticlePhase& particles);
+  void begin_pressure(double t);
   void add_compression(double dt);
   void hold();
   const core::FaceField& open_mobility();
@@ -103,6 +104,8 @@ class Flow {
   double gravity_, solids_density_, tolerance_;  ///< m/s2; mean, kg/m3; of the pressure's residual
   bool viscous_;                                 ///< with a viscous stress
   bool has_open_sides_;
+  bool driven_;   ///< by a pressure outside a discharge
+  bool held_;     ///< the particles do not move
   bool limited_;  ///< convection is second order, with a limiter
   std::optional<Compressible> compressible_;
   core::PoissonSolver solver_;

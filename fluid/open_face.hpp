@@ -28,6 +28,12 @@ struct OpenFace {
   double rise;                       ///< p_out/h along the axis, Pa/m
 
   [[nodiscard]] std::size_t axis() const { return std::size_t(axis_of(at)); }
+  /// The part between particles that do not move, for the fluid alone.
+  [[nodiscard]] OpenFace between(double voidage) const {
+    OpenFace part = *this;
+    part.share *= voidage;
+    return part;
+  }
   /// B, m3/kg. \param density  rho_m, kg/m3
   [[nodiscard]] double mobility(double density) const { return share / density; }
   /// Acceleration of J by its own convection, along the axis, m/s2.

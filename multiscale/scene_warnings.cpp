@@ -113,6 +113,22 @@ void warn_of_fast_gas(const core::Scene& scene, double density, Lines& warnings)
   }
 }
 
+/// Warns of a pressure outside a discharge beyond the weight of the whole column, filled with its densest material.
+void warn_of_absolute_pressure(const core::Scene& scene, double density, Lines& warnings) {
+  constexpr double half_an_atmosphere = 0.5 * 101325;
+  double densest = density;
+  for (const core::Species& species : scene.species) densest = std::max(densest, species.density);
+  const double weight = densest * scene.column.gravity * scene.column.size[1];
+  const double most = weight > 0 ? weight : half_an_atmosphere;
+  for (std::size_t n = 0; n < scene.discharges.size(); ++n)
+    if (const double pressure = scene.discharges[n].pressure.value_or(0); std::abs(pressure) > most)
+      warnings.push_back(fmt::format(
+          "discharge.pressure = {:g} Pa of [[discharge]] number {} exceeds {:.3g} Pa, which the column weighs per area "
+          "when it is full, and drives the fluid {} with up to {:.3g} m/s: it is relative to the fluid at rest, 0 for "
+          "an overflow; from an absolute pressure subtract the pressure at the top and that of the fluid below it",
+          pressure, n + 1, most, pressure > 0 ? "in" : "out", std::sqrt(2 * std::abs(pressure) / density)));
+}
+
 /// Warns of spheres denser than random packing.
 void warn_of_dense_packing(const core::Scene& scene, Lines& warnings) {
   constexpr double random_packing = 0.64, margin = 0.01;
@@ -208,6 +224,7 @@ std::vector<std::string> scene_warnings(const core::Scene& scene) {
   warn_of_downflow(scene, fluid, warnings);
   if (scene.column.gravity > 0) warn_of_floating_species(scene, density, warnings);
   warn_of_fast_gas(scene, density, warnings);
+  warn_of_absolute_pressure(scene, density, warnings);
   if (scene.column.around_axis() && density < relevance::lightest_liquid)
     warnings.push_back(
         "column.shape = \"axisymmetric\": a bubble in the gas is a ring about the axis there, and height and swings "

@@ -144,6 +144,8 @@ std::vector<Rule> end_rules() {
       joined_ends_exclude("column.closed", "column.closed = true", [](const Scene& s) { return s.column.closed; }),
       joined_ends_exclude("column.outlet", "column.outlet = \"open\"",
                           [](const Scene& s) { return s.column.outlet == Outlet::open; }),
+      joined_ends_exclude("column.outlet", "column.outlet = \"lid\"",
+                          [](const Scene& s) { return s.column.outlet == Outlet::lid; }),
       joined_ends_exclude("column.grading", "column.grading", [](const Scene& s) { return bool(s.column.grading); }),
       joined_ends_exclude("feed.species", "[[feed]]", [](const Scene& s) { return !s.feeds.empty(); }),
       joined_ends_exclude("discharge.at", "[[discharge]]", [](const Scene& s) { return !s.discharges.empty(); }),

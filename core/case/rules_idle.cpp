@@ -22,6 +22,7 @@ bool has_inlet(const Scene& scene) {
 }
 bool has_jets(const Scene& scene) { return !scene.jets.empty(); }
 bool has_discharges(const Scene& scene) { return !scene.discharges.empty(); }
+bool has_lid(const Scene& scene) { return scene.column.outlet == Outlet::lid; }
 bool is_given_at_the_top(const Scene& scene) { return scene.inlet.at == ColumnEnd::top; }
 bool is_compressible(const Scene& scene) { return scene.fluid.compressible(); }
 
@@ -43,6 +44,7 @@ std::vector<Rule> without_a_fluid() {
       {{"inlet.superficial_velocity", "inlet.superficial_velocity", has_inlet},
        {"jet.superficial_velocity", "[[jet]]", has_jets},
        {"inlet.at", "inlet.at = \"top\"", is_given_at_the_top},
+       {"column.outlet", "column.outlet = \"lid\", which stops the fluid alone,", has_lid},
        {"column.grading", "column.grading", [](const Scene& s) { return bool(s.column.grading); }},
        {"species.sphericity", "species.sphericity", [](const Scene& s) { return !all_spheres(s); }},
        {"fluid.temperature", "fluid.temperature", [](const Scene& s) { return bool(s.fluid.temperature); }},
@@ -60,7 +62,7 @@ std::vector<Rule> in_a_closed_column() {
        {"feed.species", "[[feed]]", [](const Scene& s) { return !s.feeds.empty(); }},
        {"discharge.at", "[[discharge]]", has_discharges},
        {"column.outlet", "column.outlet = \"open\"", [](const Scene& s) { return s.column.outlet == Outlet::open; }},
-       {"column.outlet", "column.outlet = \"lid\"", [](const Scene& s) { return s.column.outlet == Outlet::lid; }}},
+       {"column.outlet", "column.outlet = \"lid\"", has_lid}},
       [](const Scene& scene) { return scene.column.closed; }, ": column.closed = true", {"column.closed"});
 }
 

@@ -107,6 +107,15 @@ Broken discharges_overlap_inflows(const Scene& scene) {
   return broken;
 }
 
+Broken discharges_below_vacuum(const Scene& scene) {
+  Broken broken;
+  const Fluid& fluid = scene.fluid;
+  for (std::size_t n = 0; n < scene.discharges.size() && fluid.equation_of_state == Compressibility::ideal_gas; ++n)
+    if (const double pressure = scene.discharges[n].pressure.value_or(0); fluid.outlet_pressure + pressure <= 0)
+      broken.add({fmt::format("{:g}", pressure), std::to_string(n + 1), fmt::format("{:g}", fluid.outlet_pressure)}, n);
+  return broken;
+}
+
 Broken feeds_overlap(const Scene& scene) {
   Broken broken;
   for (std::size_t a = 0; a < scene.feeds.size(); ++a)
@@ -217,13 +226,17 @@ std::vector<Rule> discharge_rules() {
       "discharge.superficial_velocity, or column.outlet = \"lid\" without inlet.at",
       [](const Scene& s, const Discharge& d) { return d.pressure && s.inlet.at == ColumnEnd::top; });
   rules.push_back(
-      {{"column.outlet", "discharge.pressure", "discharge.at"},
+      {{"column.outlet", "discharge.pressure", "discharge.at", "fluid.name"},
        "column.outlet = \"lid\" needs a [[discharge]] with discharge.pressure, through which leaves what enters",
        [](const Scene& s) {
          const auto open = [](const Discharge& d) { return d.pressure.has_value(); };
-         return broken_if(s.column.outlet == Outlet::lid && !s.column.closed &&
+         return broken_if(s.column.outlet == Outlet::lid && !s.column.closed && s.fluid.present() &&
                           std::none_of(s.discharges.begin(), s.discharges.end(), open));
        }});
+  rules.push_back({{"discharge.pressure", "fluid.outlet_pressure", "fluid.equation_of_state"},
+                   "discharge.pressure = {} Pa of [[discharge]] number {} is below vacuum: it is relative to "
+                   "fluid.outlet_pressure = {} Pa; raise one of them",
+                   discharges_below_vacuum});
   rules.push_back({{"discharge.from", "discharge.to", "discharge.at", "column.size"},
                    "two discharges overlap: [[discharge]] number {} and {}",
                    [](const Scene& scene) { return overlap_each_other(scene.discharges); }});

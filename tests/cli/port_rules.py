@@ -38,6 +38,8 @@ PORTS = {
         open_side("bottom", *LOW)],
     '[[discharge]] number {} has a pressure, but inlet.at = "top" gives the flow at both ends: use discharge.superficial_velocity, or '
     'column.outlet = "lid" without inlet.at': [open_side("left", *LOW), "inlet.at=top"],
+    "discharge.pressure = {} Pa of [[discharge]] number {} is below vacuum: it is relative to fluid.outlet_pressure = {} Pa; raise one of "
+    "them": ["fluid.name=air", "fluid.equation_of_state=ideal_gas", 'discharge=[{pressure=-2e5, at="left", from=[0.02], to=[0.04]}]'],
     'column.outlet = "lid" needs a [[discharge]] with discharge.pressure, through which leaves what enters': ["column.outlet=lid"],
     "[[discharge]] number {} has a pressure and shares a cell with [[{}]] number {}: move them apart, or take smaller cells": [
         open_side("left", [0.02], [0.034]), part("jet", ("left", [0.036], [0.05]))],

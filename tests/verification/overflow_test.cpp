@@ -242,6 +242,44 @@ TEST(OverflowOfParticles, APressureDifferenceAcceleratesTheFluid) {
     EXPECT_NEAR(flow.state().velocity[0][std::size_t(grid.index(i, 5))] / speed, 1, 1e-7) << i;
 }
 
+// Under a lid the pressure outside is that inside from the start: nothing pushes the particles next to the port.
+TEST(OverflowOfParticles, StartsAtThePressureOutside) {
+  constexpr double outside = 1e5;
+  core::Scene scene = channel(0);
+  scene.discharges = {open_side(ColumnFace::right, {0.031}, {0.046}, outside)};
+  const core::Grid grid = core::grid_of(scene, nullptr);
+  fluid::Flow flow(scene, grid, 1e-10);
+  const fluid::ParticlePhase none(grid, false);
+  flow.begin(0, none);
+  for (int j = 0; j < 12; ++j) {
+    const auto at = std::size_t(grid.index(8, j));
+    EXPECT_NEAR(flow.state().pressure[std::size_t(grid.index(3, j))] / outside, 1, 1e-8) << j;
+    EXPECT_NEAR(flow.gradient()[0][at] * grid.spacing[0] / outside, 0, 1e-8) << j;
+  }
+  flow.advance(0, 1e-3, none);
+  EXPECT_NEAR(flow.overflow() / (0.06 * grid.spacing[2]), 0, 1e-7);
+}
+
+// Particles that do not move leave their voidage of the hole to the fluid, which flows alone: u = J/eps is what the
+// fluid had without them.
+TEST(OverflowOfParticles, HeldParticlesDoNotLeave) {
+  core::Scene scene = channel(0);
+  scene.bed.held = true;
+  scene.discharges = {open_side(ColumnFace::left, {}, {}, 4.5), open_side(ColumnFace::right, {}, {}, 0)};
+  const core::Grid grid = core::grid_of(scene, nullptr);
+  fluid::Flow flow(scene, grid, 1e-10);
+  fluid::ParticlePhase half(grid, false);
+  std::fill(half.voidage.begin(), half.voidage.end(), 0.5);
+  for (core::Field& on_face : half.voidage_on) std::fill(on_face.begin(), on_face.end(), 0.5);
+  flow.begin(0, half);
+  for (int n = 0; n < 100; ++n) flow.advance(1e-3 * n, 1e-3, half);
+  double speed = 0;
+  for (int n = 0; n < 100; ++n) speed += 1e-3 * (4.5 / 1000 - speed * speed) / (9 * 0.005);
+  for (int i = 1; i < 8; ++i)
+    EXPECT_NEAR(flow.state().velocity[0][std::size_t(grid.index(i, 5))] / speed, 1, 1e-7) << i;
+  EXPECT_NEAR(flow.overflow() / (0.06 * grid.spacing[2]), 0, 1e-9);
+}
+
 // A quarter of the right side under a lid: what enters through the bottom leaves there, at once and later.
 TEST(OverflowOfParticles, UnderALidAllLeavesThroughTheSide) {
   core::Scene scene = channel(0);

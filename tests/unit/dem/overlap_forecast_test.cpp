@@ -157,5 +157,22 @@ TEST(Speeds, OfAChannelThroughABed) {
   EXPECT_NEAR(speeds(scene).greatest, 0.5, by_hand);
 }
 
+// Under a lid 0.1 m/s of 1 cm2 leave through 0.3 cm2; 1250 Pa less outside make 1 m/s of a liquid of 2500 kg/m3. Twice
+// that, as for other flows.
+TEST(Speeds, OfAnOverflow) {
+  core::Scene scene = spheres();
+  scene.column.size[1] = 1;
+  scene.fluid.name = "liquid";
+  scene.fluid.density = 2500;
+  scene.fluid.viscosity = 1e-3;
+  scene.inlet.superficial_velocity = {{0, 0.1}};
+  scene.discharges = {{core::ColumnFace::right, {2e-3, 0.9}, {8e-3, 0.905}, {}, 0.0}};
+  scene.column.outlet = core::Outlet::lid;
+  EXPECT_NEAR(speeds(scene).greatest, 2 / 3.0, by_hand);
+  scene.column.outlet = core::Outlet::screen;
+  scene.discharges[0].pressure = -1250;
+  EXPECT_NEAR(speeds(scene).greatest, 2, 2 * by_hand);
+}
+
 }  // namespace
 }  // namespace polybed::dem::test
