@@ -75,6 +75,11 @@ const std::vector<Term>& terms() {
        "mass per time out of dem.opening, between a tenth and nine tenths of what has left", ""},
       {"has left", "line of the card", "mass of each species that has left the column, and its share (the recovery)",
        ""},
+      {"leaves by", "line of the card",
+       "for each [[discharge]] and an open top, if there are several: mean volume flow of fluid and solids, and mass "
+       "of "
+       "each species that has left there",
+       ""},
       {"mass", "invariant", "relative change of the mass of a species beyond what was fed and has left",
        "lower tfm.rtol"},
       {"solids fraction below 0", "invariant", "how far the least solids fraction of a cell lies below 0",

@@ -1,5 +1,7 @@
 #include "dem/history_table.hpp"
 
+#include "measures/exit_table.hpp"
+
 namespace polybed::dem {
 
 measures::Table<Told> history_table(const Parts& parts) {
@@ -50,6 +52,8 @@ measures::Table<Told> history_table(const Parts& parts) {
                       [](const Told& t, measures::Members j) { return measures::sum_of(t.number_in, j); }});
   add(parts.feeding,
       {"in", "kg", "their mass", [](const Told& t, measures::Members j) { return measures::sum_of(t.mass_in, j); }});
+  if (parts.fluid) measures::add_exit_flows(parts.exits, table);
+  if (parts.outflow) measures::add_exit_masses(parts.exits, table);
   return table;
 }
 

@@ -11,19 +11,22 @@ namespace polybed::dem {
 /// Source of its columns, at one time.
 struct Told {
   Totals totals;
-  double most_solids = 0;                    ///< greatest phi in the fluid's cells
-  double fluid_mass = 0;                     ///< of a compressible fluid, kg
-  std::vector<double> number_out, mass_out;  ///< of particles that have left since the start, kg, [species]
-  std::vector<double> number_in, mass_in;    ///< of particles that have entered since the start, kg, [species]
-  double overflow = 0;                       ///< through sides with a given pressure, m3/s
+  double most_solids = 0;                      ///< greatest phi in the fluid's cells
+  double fluid_mass = 0;                       ///< of a compressible fluid, kg
+  std::vector<double> number_out, mass_out;    ///< of particles that have left since the start, kg, [species]
+  std::vector<double> number_in, mass_in;      ///< of particles that have entered since the start, kg, [species]
+  double overflow = 0;                         ///< through sides with a given pressure, m3/s
+  std::vector<double> exit_flow;               ///< of fluid and particles through each exit, m3/s
+  std::vector<std::vector<double>> exit_mass;  ///< of particles that have left there, kg, [exit][species]
 };
 
 /// Optional parts of a run.
 struct Parts {
   bool ledger = false, outflow = false, fluid = false;
-  bool feeding = false;       ///< particles are fed
-  bool compressible = false;  ///< the fluid is compressible
-  bool open_sides = false;    ///< a discharge has a pressure
+  bool feeding = false;                 ///< particles are fed
+  bool compressible = false;            ///< the fluid is compressible
+  bool open_sides = false;              ///< a discharge has a pressure
+  std::vector<std::string> exits = {};  ///< as of fluid::names_of_exits()
 };
 
 /// The columns after the bed's.

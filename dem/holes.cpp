@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "fluid/exits.hpp"
+
 namespace polybed::dem {
 
 namespace {
@@ -105,6 +107,15 @@ std::vector<Hole> holes_of(const core::Scene& scene, const Box& box) {
   std::vector<Hole> holes = rectangles_of(scene, box);
   for (Hole& hole : holes) leave_out_rims_at_ends(hole.opening, box);
   return holes;
+}
+
+std::vector<Opening> exits_of(const core::Scene& scene, const Box& box) {
+  const std::size_t count = fluid::names_of_exits(scene).size();
+  std::vector<Opening> exits;
+  for (std::size_t n = 0; n < scene.discharges.size() && count > 0; ++n)
+    exits.push_back(rectangle(scene.discharges[n], box, scene.column.dimensions));
+  if (exits.size() < count) exits.push_back({1, 1, box.size[1], {}, {endless, endless, endless}});
+  return exits;
 }
 
 std::vector<std::pair<std::size_t, std::size_t>> touching_holes(const core::Scene& scene, const Box& box) {

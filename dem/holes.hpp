@@ -21,6 +21,10 @@ struct Hole {
 /// These rectangles as holes: without a rim where they end with their face, or along an axis that they span.
 [[nodiscard]] std::vector<Hole> holes_of(const core::Scene& scene, const Box& box);
 
+/// For particles that are counted where they leave: the rectangle of each discharge, and an open top. Empty if there
+/// are less than two.
+[[nodiscard]] std::vector<Opening> exits_of(const core::Scene& scene, const Box& box);
+
 /// Pairs of discharges, from 0, whose rectangles share a part of an edge: a particle there would meet the rims of both.
 [[nodiscard]] std::vector<std::pair<std::size_t, std::size_t>> touching_holes(const core::Scene& scene, const Box& box);
 

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "dem/holes.hpp"
 #include "dem/packing.hpp"
 #include "dem/rules.hpp"
 #include "dem/scene.hpp"
@@ -67,7 +68,7 @@ void Model::make_parts(const std::vector<Particle>& all, FluidBy fluid_by) {
   const bool sheared = box_.shear_rate != 0;
   const bool fed = is_fed(scene_);
   if (fed) feeding_ = std::make_unique<Feeding>(scene_, materials_, box_, skin_, count_);
-  if (!box_.openings.empty()) outflow_ = std::make_unique<Outflow>(box_, materials_);
+  if (!box_.openings.empty()) outflow_ = std::make_unique<Outflow>(box_, materials_, exits_of(scene_, box_));
   if (scene_.dem.ledger) {
     ledger_ = std::make_unique<Ledger>(laws_, laws_.memory_size(), limits_.synchronised, energy_unit_, force_unit_);
     pair_forces_.keep(*ledger_);

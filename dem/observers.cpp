@@ -20,14 +20,15 @@ std::vector<std::string> names_of(const Model& model) {
   return names;
 }
 
-Parts parts_of(const Model& model, bool ledger) {
+Parts parts_of(const Model& model, const core::Scene& scene) {
   const Coupling* coupling = model.coupling();
-  return {.ledger = ledger,
+  return {.ledger = scene.dem.ledger,
           .outflow = model.outflow() != nullptr,
           .fluid = coupling != nullptr,
           .feeding = model.feeding() != nullptr,
           .compressible = coupling != nullptr && coupling->flow().compressible() != nullptr,
-          .open_sides = coupling != nullptr && coupling->flow().has_open_sides()};
+          .open_sides = coupling != nullptr && coupling->flow().has_open_sides(),
+          .exits = fluid::names_of_exits(scene)};
 }
 
 std::vector<std::string> profile_names(const Model& model, const measures::Slabs& slabs) {
@@ -165,7 +166,8 @@ Observers::Observers(const Model& model, const core::Scene& scene, const std::fi
                      std::optional<RunStart> start, const FluidTotals& fluid, std::optional<double> resume_time)
     : model_(model),
       slabs_(slabs_of(model, scene.column)),
-      history_(measures::bed_table(), history_table(parts_of(model, scene.dem.ledger)), names_of(model)),
+      exits_(model.coupling() != nullptr ? fluid::Exits(model.coupling()->flow().grid(), scene) : fluid::Exits()),
+      history_(measures::bed_table(), history_table(parts_of(model, scene)), names_of(model)),
       particles_(directory, {model.box().size, model.box().periodic, names_of(model)}, resume_time, model.share()),
       totals_(totals_of(model)),
       invariants_(model, start ? std::move(*start) : RunStart{totals_.sum(), numbers_of(model)}, scene.dem.ledger) {
@@ -193,7 +195,10 @@ void Observers::write_history(double time) {
   TotalsOfRanks totals(model_);
   Greatest most = greatest_of(model_);
   double most_solids = model_.coupling() != nullptr ? model_.coupling()->most_solids() : 0;
-  const double overflow = model_.coupling() != nullptr ? model_.coupling()->flow().overflow() : 0;
+  const fluid::Flow* flow = model_.coupling() != nullptr ? &model_.coupling()->flow() : nullptr;
+  const double overflow = flow != nullptr ? flow->overflow() : 0;
+  std::vector<double> exit_flow;
+  if (flow != nullptr) exit_flow = exits_.flows(time, flow->state().flux);
   core::Reduction greatest, all;
   totals.put_greatest_into(greatest);
   most.put_into(greatest);
@@ -216,12 +221,12 @@ void Observers::write_history(double time) {
   bed.buoyant_weight = weight_of(model_, bed, slabs_.area);
   core::on_first(model_.ranks(), [&] {
     bed_height_ = measures::bed_height(bed.profile);
-    files_->history.write_row(history_.row(bed, told(most_solids, overflow)));
+    files_->history.write_row(history_.row(bed, told(most_solids, overflow, std::move(exit_flow))));
   });
 }
 
-Told Observers::told(double most_solids, double overflow) const {
-  Told told{totals_, most_solids, fluid_ ? fluid_->mass() : 0, {}, {}, {}, {}, overflow};
+Told Observers::told(double most_solids, double overflow, std::vector<double> exit_flow) const {
+  Told told{totals_, most_solids, fluid_ ? fluid_->mass() : 0, {}, {}, {}, {}, overflow, std::move(exit_flow), {}};
   const auto tell = [this](const std::vector<std::int64_t>& passed, std::vector<double>& number,
                            std::vector<double>& mass) {
     for (std::size_t j = 0; j < passed.size(); ++j) {
@@ -229,7 +234,13 @@ Told Observers::told(double most_solids, double overflow) const {
       mass.push_back(number[j] * model_.materials().species()[j].mass);
     }
   };
-  if (const Outflow* outflow = model_.outflow()) tell(outflow->number, told.number_out, told.mass_out);
+  if (const Outflow* outflow = model_.outflow()) {
+    tell(outflow->number, told.number_out, told.mass_out);
+    for (const std::vector<std::int64_t>& one : outflow->number_at) {
+      std::vector<double> number;
+      tell(one, number, told.exit_mass.emplace_back());
+    }
+  }
   if (const Feeding* feeding = model_.feeding()) tell(feeding->number, told.number_in, told.mass_in);
   return told;
 }

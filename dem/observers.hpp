@@ -15,6 +15,7 @@
 #include "dem/invariants.hpp"
 #include "dem/measures.hpp"
 #include "dem/model.hpp"
+#include "fluid/exits.hpp"
 #include "measures/bed_table.hpp"
 #include "measures/particle_profile.hpp"
 
@@ -56,11 +57,12 @@ class Observers {
     std::unique_ptr<FluidOutput> fluid;  ///< null without one
   };
   /// On the first rank.
-  [[nodiscard]] Told told(double most_solids, double overflow) const;
+  [[nodiscard]] Told told(double most_solids, double overflow, std::vector<double> exit_flow) const;
   void write_all_particles(double time);
 
   const Model& model_;
   measures::Slabs slabs_;
+  fluid::Exits exits_;  ///< for the fluid
   measures::History<Told> history_;
   std::optional<FluidRecord> fluid_;  ///< absent without a fluid
   std::unique_ptr<Files> files_;

@@ -20,11 +20,12 @@ class Model;
 /// on any number of ranks to the bit.
 class Outflow final : public KeptPart {
  public:
-  /// For a box with openings.
-  Outflow(const Box& box, const Materials& materials);
+  /// For a box with openings. \param exits  its holes one by one and its top, if particles are counted in each
+  Outflow(const Box& box, const Materials& materials, std::vector<Opening> exits = {});
 
-  std::vector<std::int64_t> number;  ///< of each species, since the start
-  std::int64_t steps = 0;            ///< step numbers at their exit, summed over them
+  std::vector<std::int64_t> number;                  ///< of each species, since the start
+  std::vector<std::vector<std::int64_t>> number_at;  ///< of these, through each of several exits, [exit][species]
+  std::int64_t steps = 0;                            ///< step numbers at their exit, summed over them
   /// Their energy at exit, in the unit of energy: motion, spin and gravity, and the springs of all their contacts.
   EnergySum energy;
 
@@ -45,7 +46,10 @@ class Outflow final : public KeptPart {
   void read(const Restored& from) override;
 
  private:
+  [[nodiscard]] std::size_t exit_of(const Place& place) const;
+
   const Box& box_;
+  std::vector<Opening> exits_;
   double greatest_diameter_;  ///< m
 };
 

@@ -1,8 +1,11 @@
 #include "tfm/history_table.hpp"
 
+#include "measures/exit_table.hpp"
+
 namespace polybed::tfm {
 
-measures::Table<Told> history_table(bool compressible, bool openings, bool open_sides) {
+measures::Table<Told> history_table(bool compressible, bool openings, bool open_sides,
+                                    const std::vector<std::string>& exits) {
   measures::Table<Told> table{
       {"max_solids_fraction", "1", "greatest phi of a cell", [](const Told& t) { return t.invariants.most_solids; }},
       {"min_fraction", "1", "least phi_j of a cell if negative, else 0",
@@ -28,6 +31,8 @@ measures::Table<Told> history_table(bool compressible, bool openings, bool open_
     table.push_back({"out", "kg", "left since the start; if solids can leave or are fed",
                      [](const Told& t, measures::Members j) { return measures::sum_of(t.out, j); }});
   }
+  measures::add_exit_flows(exits, table);
+  if (openings) measures::add_exit_masses(exits, table);
   return table;
 }
 

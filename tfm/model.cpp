@@ -66,6 +66,7 @@ Model::Model(const core::Scene& scene, core::Timers& timers, const std::shared_p
                                    scene.column.outlet == core::Outlet::open, fluid::crossed_sides(scene),
                                    fluid::open_faces(core::grid_of(scene, ranks), scene)),
                  fluid::Inlet(core::grid_of(scene, ranks), scene), make_discretisation(scene.tfm, momentum_), timers),
+      exits_(constants().grid, scene),
       integrator_(choose_integrator(scene, constants(), effects(), inlet().greatest())),
       layout_(constants().grid, int(constants().species()),
               integrator_.kind == core::TfmIntegrator::implicit_steps || compressible(), transports_temperature(),

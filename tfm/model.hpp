@@ -12,6 +12,7 @@
 #include "core/numerics/run.hpp"
 #include "core/output/checkpoint.hpp"
 #include "core/timers.hpp"
+#include "fluid/exits.hpp"
 #include "fluid/fluid_mass.hpp"
 #include "tfm/integrator_choice.hpp"
 #include "tfm/right_hand_side.hpp"
@@ -72,6 +73,8 @@ class Model : public core::Simulation {
   }
   /// Volume of each species that has entered and left since the start, m3, for the fields last shown.
   [[nodiscard]] std::vector<fluid::Passed> passed() const { return constants().openings.passed(fields().solids); }
+  /// The ways out, if there are several, for the fields last shown.
+  [[nodiscard]] const fluid::Exits& exits() const { return exits_; }
   /// Explicit or implicit steps.
   [[nodiscard]] core::TfmIntegrator integrator_kind() const { return integrator_.kind; }
   [[nodiscard]] const std::string& integrator_reason() const { return integrator_.reason; }
@@ -116,6 +119,7 @@ class Model : public core::Simulation {
   core::Momentum momentum_;
   bool has_open_sides_;
   RightHandSide equations_;
+  fluid::Exits exits_;
   IntegratorChoice integrator_;
   StateLayout layout_;
   double time_ = 0, step_ = 0, velocity_scale_ = 1, pressure_scale_ = 100;

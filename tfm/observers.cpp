@@ -128,7 +128,7 @@ Observers::Observers(const Model& model, const std::filesystem::path& directory,
       invariants_(std::move(initial_mass), model.constants().name, rtol, model.effects().compressible != nullptr),
       history_(measures::bed_table(),
                history_table(model.effects().compressible != nullptr, model.constants().openings.present(),
-                             model.has_open_sides()),
+                             model.has_open_sides(), model.exits().names()),
                model.constants().name) {
   const Constants& constants = model.constants();
   const bool compressible = model.effects().compressible != nullptr;
@@ -208,7 +208,17 @@ Told Observers::told(const measures::Watched& column, double time) {
   const std::vector<fluid::Passed> passed = model_.passed();
   const measures::InvariantValues now = invariants_.see(column, constants.density, force_balance_ - 1, time, passed,
                                                         account ? account->error(fluid_mass) : 0);
-  Told told{now, fluid_mass, account.value_or(fluid::MassAccount{}), {}, {}, model_.overflow()};
+  const Fields& fields = model_.fields();
+  Told told{.invariants = now,
+            .fluid_mass = fluid_mass,
+            .account = account.value_or(fluid::MassAccount{}),
+            .in = {},
+            .out = {},
+            .overflow = model_.overflow(),
+            .exit_flow = model_.exits().flows(time, fields.fluid.flux),
+            .exit_mass = model_.exits().passed(constants.openings, fields.solids)};
+  for (std::vector<double>& species : told.exit_mass)
+    for (std::size_t j = 0; j < species.size(); ++j) species[j] *= constants.density[j];
   for (std::size_t j = 0; j < passed.size(); ++j) {
     told.in.push_back(passed[j].in * constants.density[j]);
     told.out.push_back(passed[j].out * constants.density[j]);

@@ -5,6 +5,7 @@
 
 #include "closures/sphere.hpp"
 #include "closures/terminal_velocity.hpp"
+#include "fluid/exits.hpp"
 #include "relevance/drag_law.hpp"
 #include "relevance/fluid_properties.hpp"
 
@@ -124,6 +125,15 @@ void find_outflow(const std::vector<measures::Kind>& kinds, const Window& window
   }
 }
 
+void find_exits(const core::Scene& scene, const std::vector<measures::Kind>& kinds, const Window& window,
+                BedOfRun& bed) {
+  for (const std::string& name : fluid::names_of_exits(scene)) {
+    BedOfRun::Exit& exit = bed.exits.emplace_back(BedOfRun::Exit{name, window.mean(name + "_m3_s"), {}});
+    for (const measures::Kind& kind : kinds)
+      if (const Series* out = window.history.find(name + "_" + kind.name + "_kg")) exit.out[kind.name] = last(*out);
+  }
+}
+
 void find_tops(const std::vector<measures::Kind>& kinds, const Window& window, BedOfRun& bed) {
   for (const measures::Kind& kind : kinds) {
     if (kind.is_class || has_left(bed, kind.name)) continue;
@@ -217,6 +227,7 @@ BedOfRun bed_of_run(const core::Scene& scene, const core::History& history) {
   for (const measures::Kind& kind : measures::named_species(names))
     if (const std::optional<TimeMean> mass = window.mean("mass_" + kind.name + "_kg"))
       bed.masses.emplace_back(kind.name, mass->mean);
+  find_exits(scene, kinds, window, bed);
   if (!bed.hangs) find_tops(kinds, window, bed);
   if (bed.hangs) bed.height.reset(), bed.dense.reset();  // its top is the column's
   find_discharge(scene, window, all, bed);

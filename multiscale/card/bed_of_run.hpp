@@ -38,9 +38,16 @@ struct BedOfRun {
   Layers layers{};
   std::map<std::string, double> out;       ///< kg since the start, by kind, for a scene with openings
   std::map<std::string, double> recovery;  ///< the same over the initial amount plus the feed
-  std::optional<double> discharge;         ///< kg/s, from a hopper
-  bool blocked = false;                    ///< its opening is blocked
-  std::optional<bool> steady;              ///< empty: too few rows
+  /// One of several ways out of the column.
+  struct Exit {
+    std::string name;
+    std::optional<measures::TimeMean> flow;  ///< of fluid and solids, m3/s
+    std::map<std::string, double> out;       ///< kg since the start, by kind
+  };
+  std::vector<Exit> exits;
+  std::optional<double> discharge;  ///< kg/s, from a hopper
+  bool blocked = false;             ///< its opening is blocked
+  std::optional<bool> steady;       ///< empty: too few rows
   std::vector<measures::DriftOfMeasure> drifts;
 };
 

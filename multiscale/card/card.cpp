@@ -89,10 +89,26 @@ void add_discharge(const ExpectedDischarge& out, std::vector<std::string>& lines
     lines.push_back(card_line("", fmt::format("{}: below {:g} it may block", width, closures::least_hopper_opening)));
 }
 
+bool is_class(const std::map<std::string, double>& all, const std::string& name) {
+  return name.find('.') != std::string::npos && all.contains(name.substr(0, name.rfind('.')));
+}
+
+std::string exits_text(const BedOfRun& bed) {
+  std::string text;
+  for (const BedOfRun::Exit& exit : bed.exits) {
+    std::vector<std::string> parts;
+    if (exit.flow) parts.push_back(fmt::format("{:.3g} ml/s", 1e6 * exit.flow->mean));
+    for (const auto& [name, mass] : exit.out)
+      if (!is_class(exit.out, name)) parts.push_back(name + " " + mass_text(mass));
+    text += (text.empty() ? "" : "; ") + exit.name + ": " + each(parts);
+  }
+  return text;
+}
+
 std::string out_text(const BedOfRun& bed) {
   std::vector<std::string> parts;
   for (const auto& [name, mass] : bed.out) {
-    if (bed.out.contains(name.substr(0, name.rfind('.'))) && name.find('.') != std::string::npos) continue;  // a class
+    if (is_class(bed.out, name)) continue;
     const auto share = bed.recovery.find(name);
     parts.push_back(name + " " + mass_text(mass) +
                     (share == bed.recovery.end() ? "" : fmt::format(" ({:.3g} %)", 100 * share->second)));
@@ -183,6 +199,9 @@ void write_card(core::Json& json, const core::Scene& scene, const Card& card) {
   const BedOfRun& seen = card.seen;
   core::Json tops;
   for (const auto& [name, top] : seen.tops) tops[name] = json_of(top);
+  core::Json exits;
+  for (const BedOfRun::Exit& exit : seen.exits)
+    exits[exit.name] = {{"flow_m3_s", json_of(exit.flow)}, {"out_kg", json_or_null(exit.out)}};
   json["card"] = velocities_of(scene, card.expected);
   json["card"].update({
       {"state", core::text_or_null(name_of(seen.state))},
@@ -195,6 +214,7 @@ void write_card(core::Json& json, const core::Scene& scene, const Card& card) {
       {"mixing", core::or_null(seen.mixing)},
       {"mass_kg", json_or_null({seen.masses.begin(), seen.masses.end()})},
       {"out_kg", json_or_null(seen.out)},
+      {"exits", exits},
       {"recovery", json_or_null(seen.recovery)},
       {"discharge_kg_s", core::or_null(seen.discharge)},
       {"steady", seen.steady ? core::Json(*seen.steady) : core::Json()},
@@ -295,6 +315,7 @@ std::vector<std::string> result_lines(const Card& card) {
   if (seen.mixing)
     lines.push_back(card_line("mixing", fmt::format("{:.2f}  (1 mixed, 0 separated)", std::max(*seen.mixing, 0.0))));
   if (!seen.out.empty()) lines.push_back(card_line("has left", out_text(seen)));
+  if (!seen.exits.empty()) lines.push_back(card_line("leaves by", exits_text(seen)));
   if (seen.discharge) lines.push_back(card_line("discharge", mass_text(*seen.discharge) + "/s"));
   if (seen.blocked) lines.push_back(card_line("discharge", "none: nothing leaves any more, and over half remains"));
   if (seen.height || seen.steady) lines.push_back(card_line("steady", steady_text(seen)));

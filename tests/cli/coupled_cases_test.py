@@ -55,14 +55,19 @@ class CoupledCases(Scratch):
 
     def test_beads_cross_the_sides_of_a_weir(self):
         """By hand 8 mm/s through 6 by 3 mm call for 82 beads of 1 mm in 0.3 s; a few wait for room. Those that are seen to leave lie above the
-        sill, 20 mm high, where the bed starts."""
-        record, _ = self.dem("weir", run__until=0.3)
+        sill, 20 mm high, where the bed starts. 0.72 of 1.224 ml/s are drawn off there, the rest leaves at the top, where no bead is."""
+        record, directory = self.dem("weir", run__until=0.3)
         fed, out = (record[key]["beads"]["particles"] for key in ("feed", "outflow"))
         self.assertEqual(fed + record["feed"]["beads"]["waiting"], 82)
         self.assertGreater(fed, 70)
         self.assertGreater(out, 10)
         self.assertEqual(record["particles"], 990 + fed - out)
         self.assertTrue(all(invariant["held"] for invariant in record["invariants"]), record["invariants"])
+        last = {name: values[-1] for name, values in history(directory).items()}
+        self.assertAlmostEqual(last["discharge1_m3_s"], 0.72e-6, delta=1e-15)
+        self.assertAlmostEqual(last["top_m3_s"], 0.504e-6, delta=1e-11)
+        self.assertEqual((last["discharge1_beads_kg"], last["top_beads_kg"]), (last["out_beads_kg"], 0))
+        self.assertIn("discharge1: 0.72 ml/s, beads", "".join(record["card"]["lines"]))
 
     def test_beads_flow_over_through_a_pipe_under_a_lid(self):
         """What leaves is what enters: 15 mm/s through 24 by 3 mm, and 8 mm/s of beads through 6 by 3 mm."""
