@@ -28,7 +28,9 @@ struct Arrivals {
     if (id < first) return 1;
     const One& one = of[std::size_t(id - first)];
     const auto axis = std::size_t(axis_of(one.at));
-    const double from_face = side_of(one.at) == 0 ? place.x[axis] : box.size[axis] - place.x[axis];
+    const double from_face = box.round && is_side(one.at) ? 0.5 * box.size[0] - box.from_axis(place.x)
+                             : side_of(one.at) == 0       ? place.x[axis]
+                                                          : box.size[axis] - place.x[axis];
     const double r = place.radius, way = std::max(one.way, from_face - r);
     return measures::sphere_volume_below(r, r - way, 0) / closures::sphere_volume(r);
   }

@@ -123,7 +123,40 @@ void Box::add_cone(const InPlane& from, const InPlane& to, double thickness) {
   walls.push_back({0, 0, 0, joined(plate)});
 }
 
+/// The rim follows the curved side: two upright edges and two arcs.
+std::optional<Vector> Opening::from_curved_rim(const Vector& centre) const {
+  const auto a = std::size_t(axis), c = 2 - a;
+  const InPlane middle_of_box = *about;
+  const double dx = centre[0] - middle_of_box[0], dz = centre[2] - middle_of_box[1],
+               away = std::sqrt(dx * dx + dz * dz);
+  const double ahead = (side == 0 ? -1 : 1) * (a == 0 ? dx : dz);
+  if (!(ahead > 0)) return {};
+  const double axis_c = a == 0 ? middle_of_box[1] : middle_of_box[0],
+               axis_a = a == 0 ? middle_of_box[0] : middle_of_box[1];
+  const double foot = axis_c + place / away * (a == 0 ? dz : dx);  // of the centre on the side
+  if (std::abs(foot - middle[c]) >= half[c] || std::abs(centre[1] - middle[1]) >= half[1]) return {};
+  Vector nearest{};
+  double least = std::numeric_limits<double>::infinity();
+  const auto see = [&](const Vector& from) {
+    const double square = from[0] * from[0] + from[1] * from[1] + from[2] * from[2];
+    if (square >= least) return;
+    least = square;
+    nearest = from;
+  };
+  for (const double end : {-1.0, 1.0}) {
+    const double edge = middle[c] + end * half[c], chord = edge - axis_c;
+    Vector upright{};
+    upright[c] = centre[c] - edge;
+    upright[a] = centre[a] - axis_a - (side == 0 ? -1 : 1) * std::sqrt(place * place - chord * chord);
+    see(upright);
+    const double out = 1 - place / away;
+    see({out * dx, centre[1] - middle[1] - end * half[1], out * dz});
+  }
+  return nearest;
+}
+
 std::optional<Vector> Opening::from_rim(const Vector& centre) const {
+  if (about) return from_curved_rim(centre);
   const auto toward = [&](double to, double away, double width) {
     return away == 0 ? -width : (1 - width / away) * to;
   };
@@ -172,6 +205,13 @@ std::optional<Vector> Box::from_opened(int axis, int side, const Vector& centre)
   Vector straight{};
   straight[std::size_t(axis)] = centre[std::size_t(axis)] - face->place;
   return straight;
+}
+
+Vector Box::from_plate(int plate, const Vector& centre) const {
+  for (std::size_t n = 0; plate == side_plate && n < openings.size(); ++n)
+    if (const Opening& opening = openings[n]; opening.about)
+      if (const auto from = opening.from_rim(centre)) return *from;
+  return plates[std::size_t(plate)].to(centre);
 }
 
 bool Box::rim_is_edge(int axis, const Vector& centre, const Vector& from_rim) const {

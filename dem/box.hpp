@@ -19,6 +19,8 @@
 
 namespace polybed::dem {
 
+using core::InPlane;
+
 /// An opening in a face of the box, or the whole of an open top. The face is a plate without thickness, with a sharp
 /// rim: particles beyond it meet it from outside.
 struct Opening {
@@ -26,19 +28,26 @@ struct Opening {
   double place = 0;         ///< of the face, m
   Vector middle{}, half{};  ///< centre and half widths, m; meaningless along the axis; infinite: no rim
   bool round = false;       ///< a hole in the bottom with the radius half[0]; else a rectangle
+  /// For a hole in the side of a round box, seen along its axis: `place` is the side's distance from the box's axis.
+  std::optional<InPlane> about = {};  ///< x and z of that axis, m
 
   [[nodiscard]] bool is_bottom() const { return axis == 1 && side == 0; }
   [[nodiscard]] bool is_top() const { return axis == 1 && side == 1; }
-  [[nodiscard]] bool is_beside(const Opening& other) const { return axis == other.axis && side == other.side; }
+  [[nodiscard]] bool is_beside(const Opening& other) const {
+    return (about && other.about) || (axis == other.axis && side == other.side);
+  }
   /// A coordinate along the outward normal, m, for a centre or for the face.
-  [[nodiscard]] double outward(double along) const { return side == 0 ? -along : along; }
-  [[nodiscard]] double outward(const Vector& centre) const { return outward(centre[std::size_t(axis)]); }
+  [[nodiscard]] double outward(double along) const { return side == 0 && !about ? -along : along; }
+  [[nodiscard]] double outward(const Vector& centre) const {
+    return about ? std::hypot(centre[0] - (*about)[0], centre[2] - (*about)[1]) : outward(centre[std::size_t(axis)]);
+  }
   /// Vector to a centre in line with the opening from the nearest point of the rim, m, infinite without one; nothing if
   /// the centre is not in line.
   [[nodiscard]] std::optional<Vector> from_rim(const Vector& centre) const;
-};
 
-using core::InPlane;
+ private:
+  [[nodiscard]] std::optional<Vector> from_curved_rim(const Vector& centre) const;
+};
 
 /// A wall inside the box, which particles meet from both sides and from its edges. Its middle has a straight profile in
 /// a plane: flat plates lie along z from end to end; round ones are cones about an upright axis.
@@ -100,6 +109,7 @@ struct Box {
   std::vector<std::array<int, 2>> overlaps;  ///< two plates that touch, one of them thick, in both orders
   std::vector<double> curvatures;  ///< of contacts with round plates, 1/m: above 0 from inside, below 0 from outside
   bool round = false;              ///< its cross-section is the circle within its width and depth
+  int side_plate = -1;             ///< its side, as a plate
   TaperedSide side;                ///< for a round box whose diameter changes
   std::vector<Opening> openings;   ///< through which particles leave; empty: all faces are closed
   double shear_rate = 0;           ///< Lees and Edwards: d v_x/d y, 1/s; then y is periodic
@@ -112,6 +122,8 @@ struct Box {
   /// Vector to a centre from the nearest point of a face with openings, m: perpendicular, or from the rim; nothing if
   /// the face is whole. A sphere that fits through an opening touches one part of its rim at a time.
   [[nodiscard]] std::optional<Vector> from_opened(int axis, int side, const Vector& centre) const;
+  /// Vector to a centre from the nearest point of a plate; for the side of a round box, of what its holes leave.
+  [[nodiscard]] Vector from_plate(int plate, const Vector& centre) const;
   /// Whether a flat plate ends where a centre is nearest to a rim, or lies along it: the plate pushes, the rim does not
   /// push again.
   /// \param from_rim  as of from_opened
@@ -121,6 +133,10 @@ struct Box {
 
   /// A place wrapped between the joined faces of a box at rest.
   [[nodiscard]] Vector wrapped(Vector x) const;
+  /// Distance of a place from the upright axis in the middle of the box, m.
+  [[nodiscard]] double from_axis(const Vector& x) const {
+    return std::hypot(x[0] - 0.5 * size[0], x[2] - 0.5 * size[2]);
+  }
   /// Whether a sphere lies wholly within the side of a round box; always true for another box.
   [[nodiscard]] bool within_side(const Place& sphere) const;
   /// Adds a flat plate and the corresponding wall.

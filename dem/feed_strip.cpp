@@ -36,12 +36,13 @@ FeedStrip::FeedStrip(const Model& model, core::ColumnFace at) : box_(model.box()
   const double widest = model.materials().greatest_diameter(), far = box_.size[a];
   for (std::size_t n = 0; n < across_.size(); ++n) bins_[n] = std::max(1, int(box_.size[across_[n]] / widest));
   inside_.resize(std::size_t(bins_[0]) * std::size_t(bins_[1]));
+  const bool curved = box_.round && is_side(at);
   const Particles& particles = model.particles();
   std::vector<double> own;
   for (std::size_t i = 0; i < particles.owned; ++i) {
     const auto& [x, radius] = particles.place[i];
     // Entering particles lie within the largest diameter of the face, apart from a tiny gap.
-    const double away = side_of(at) == 1 ? far - x[a] - radius : x[a] - radius;
+    const double away = (curved ? 0.5 * far - box_.from_axis(x) : side_of(at) == 1 ? far - x[a] : x[a]) - radius;
     if (away < 1.5 * widest) own.insert(own.end(), {x[0], x[1], x[2], radius});
   }
   const std::vector<double> all = of_all_ranks(model.ranks(), std::move(own));

@@ -12,6 +12,7 @@
 #include "core/numerics/random.hpp"
 #include "core/output/checkpoint.hpp"
 #include "dem/model.hpp"
+#include "dem/scene.hpp"
 
 namespace polybed::dem {
 
@@ -24,9 +25,11 @@ constexpr int most_tries = 100;
 constexpr std::uint64_t first_sequence = 1000;
 std::uint64_t sequence(std::size_t feed, std::uint64_t n) { return first_sequence + 2 * feed + n; }
 
-/// Range of the centres for a feed. Particles enter at a tiny distance from the wall.
+/// Distance of the centres of entering particles from their face, over the radius: they do not touch it.
+constexpr double hair = 1 + 0x1p-20;
+
+/// Range of the centres for a feed; in a curved side along it alone.
 std::pair<Vector, Vector> centres(const core::Feed& feed, const core::Column& column, const Box& box, double radius) {
-  constexpr double hair = 1 + 0x1p-20;
   Vector low{}, high = box.size;
   const auto set = [&](std::size_t k, double from, double to) {
     low[k] = from + radius;
@@ -44,15 +47,6 @@ std::pair<Vector, Vector> centres(const core::Feed& feed, const core::Column& co
   return {low, high};
 }
 
-double area_of(const core::Feed& feed, const core::Column& column) {
-  if (feed.from.empty() && !is_side(feed.at)) return column.cross_section(feed.at);
-  Vector width = column.size;
-  for (std::size_t n = 0; n < feed.from.size(); ++n)
-    width[std::size_t(axis_along(feed.at, column.dimensions, n))] = feed.to[n] - feed.from[n];
-  const auto [first, second] = across(feed.at);
-  return width[first] * width[second];
-}
-
 }  // namespace
 
 Feeding::Feeding(const core::Scene& scene, const Materials& materials, const Box& box, double skin, std::int64_t count)
@@ -65,7 +59,8 @@ Feeding::Feeding(const core::Scene& scene, const Materials& materials, const Box
     // Feeds must not make rebuilds of the list more frequent than when the fastest particles move half of the skin.
     feeds_.push_back({std::int32_t(found - materials.species().begin()), feed.at, feed.velocity,
                       0.5 * skin / feed.velocity, fluid::Ramp(feed.superficial_velocity),
-                      area_of(feed, scene.column) / closures::sphere_volume(radius), low, high});
+                      area_of(feed.at, feed.from, feed.to, scene.column) / closures::sphere_volume(radius), low, high,
+                      box.round && is_side(feed.at) ? 0.5 * box.size[0] : 0});
   }
 }
 
@@ -120,6 +115,11 @@ bool Feeding::find_place(std::size_t n, const FeedStrip& strip, Place& place) {
     for (std::size_t d = 0; d < axes.size(); ++d)
       place.x[axes[d]] =
           feed.low[axes[d]] + (feed.high[axes[d]] - feed.low[axes[d]]) * core::uniform(seed_, sequence(n, d), index);
+    if (feed.curved > 0) {
+      const double beside = place.x[2 - a] - feed.curved, within = feed.curved - hair * place.radius,
+                   from_axis = std::sqrt(within * within - beside * beside);
+      place.x[a] = feed.curved + (side_of(feed.at) == 0 ? -from_axis : from_axis);
+    }
     if (strip.has_room_for(place)) return true;
   }
   return false;

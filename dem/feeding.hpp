@@ -70,6 +70,7 @@ class Feeding final : public KeptPart {
     fluid::Ramp rate;   ///< superficial velocity of the solids, m/s
     double per_height;  ///< particles in a volume of one metre height over the feed's area
     Vector low, high;   ///< of centres, m
+    double curved;      ///< radius of the side that it lies in, m; 0: it is flat
     std::int64_t entered = 0;
     std::int64_t tries = 0;   ///< random places drawn so far
     double tried_at = never;  ///< time of the last draw, s

@@ -16,6 +16,10 @@ constexpr double rounding = 1e-12;  // of the box's size
 Opening rectangle(const core::Discharge& discharge, const Box& box, int dimensions) {
   const int axis = axis_of(discharge.at), side = side_of(discharge.at);
   Opening hole{axis, side, side * box.size[std::size_t(axis)], {}, {endless, endless, endless}};
+  if (box.round && axis != 1) {
+    hole.place = 0.5 * box.size[0];
+    hole.about = InPlane{0.5 * box.size[0], 0.5 * box.size[2]};
+  }
   for (std::size_t n = 0; n < std::min(discharge.from.size(), discharge.to.size()); ++n) {
     const auto k = std::size_t(axis_along(discharge.at, dimensions, n));
     hole.middle[k] = 0.5 * (discharge.from[n] + discharge.to[n]);

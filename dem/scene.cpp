@@ -65,7 +65,10 @@ void add_plates(const core::Scene& scene, Box& box) {
       box.add_cone(end_of(wall.to), {0.5 * wall.to[0], beyond_the_top * box.size[1]});
   }
   const double radius = 0.5 * box.size[0], far = beyond_the_top * box.size[1];
-  if (box.round) box.add_cone({radius, -far}, {radius, far});
+  if (box.round) {
+    box.side_plate = int(box.plates.size());
+    box.add_cone({radius, -far}, {radius, far});
+  }
   if (round) box.make_bottom_a_plate();
 }
 

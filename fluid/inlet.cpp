@@ -93,6 +93,13 @@ std::vector<double> face_shares(const core::Grid& grid, const std::vector<double
                                 core::ColumnFace at) {
   std::vector<double> share;
   const double scale = is_side(at) ? 1 : scale_of_part(grid, from, to, side_of(at) * grid.column_cells(1));
+  // A ring beside a cone has its part of the open height of its face.
+  const bool beside_cones = is_side(at) && grid.metric && grid.metric->around_axis && grid.metric->tapered();
+  const auto open_height = [&](int y) {
+    const core::CrossSection& section = grid.metric->layer(y);
+    const double open = section.face(0, section.width, 0);
+    return open > 0 ? 0.5 * open : 1;
+  };
   std::array<int, 3> cells = grid.cells, cell{};
   cells[std::size_t(axis_of(at))] = 1;
   for (cell[2] = 0; cell[2] < cells[2]; ++cell[2])
@@ -103,6 +110,7 @@ std::vector<double> face_shares(const core::Grid& grid, const std::vector<double
           const int axis = axis_along(at, grid.dimensions, n);
           const auto a = std::size_t(axis);
           product *= overlap(grid, axis, grid.before[a] + cell[a], from[n], to[n]);
+          if (beside_cones) product /= open_height(grid.before[1] + cell[1]);
         }
         share.push_back(product);
       }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <type_traits>
 
 #include "core/case/case_rules.hpp"
@@ -153,6 +154,50 @@ Broken feeds_denser_than_the_bed(const Scene& scene) {
   return broken;
 }
 
+/// Finds ports in a cone, or in another part of the wall inside the widest one. One without corners is the whole side.
+template <class Part>
+Broken rings_in_a_narrow_part(const Scene& scene, const std::vector<Part>& parts) {
+  Broken broken;
+  const auto& profile = scene.column.profile;
+  if (!scene.column.around_axis() || profile.empty()) return broken;
+  const double widest = scene.column.widest(), near = 1e-9 * profile.back().first;
+  for (std::size_t n = 0; n < parts.size(); ++n) {
+    const Part& part = parts[n];
+    if (part.at != ColumnFace::right) continue;
+    const double low = part.from.empty() ? profile.front().first : part.from.back(),
+                 high = part.to.empty() ? profile.back().first : part.to.back();
+    bool fits = true;
+    for (std::size_t k = 1; k < profile.size(); ++k)
+      if (profile[k].first > low + near && profile[k - 1].first < high - near)
+        fits = fits && std::min(profile[k - 1].second, profile[k].second) >= widest * (1 - 1e-9);
+    if (!fits)
+      broken.add({std::string(name_of(part.at)), fmt::format("{:.4g}", low), fmt::format("{:.4g}", high),
+                  fmt::format("{:.4g}", widest)},
+                 entry_of(scene, parts, n));
+  }
+  return broken;
+}
+
+/// Finds ports in the side of a cylinder that do not lie in the quarter of the wall on that side. One without corners
+/// is the whole side.
+template <class Part>
+Broken ports_beside_their_side(const Scene& scene, const std::vector<Part>& parts) {
+  Broken broken;
+  if (!scene.column.is_round() || scene.column.given_size.size() != 3) return broken;
+  const double diameter = scene.column.given_size[0], beside = 0.5 * (1 - std::sqrt(0.5)) * diameter;
+  for (std::size_t n = 0; n < parts.size(); ++n) {
+    const Part& part = parts[n];
+    if (!is_side(part.at) || (!part.from.empty() && (part.from.size() != 2 || part.to.size() != 2))) continue;
+    const bool fits =
+        !part.from.empty() && part.from[0] >= beside * (1 - 1e-9) && part.to[0] <= (diameter - beside) * (1 + 1e-9);
+    if (!fits)
+      broken.add(
+          {std::string(name_of(part.at)), fmt::format("{:.4g}", beside), fmt::format("{:.4g}", diameter - beside)},
+          entry_of(scene, parts, n));
+  }
+  return broken;
+}
+
 /// Rules for the position of jets, feeds or discharges.
 template <class Part>
 std::vector<Rule> place_rules(const std::string& table, std::vector<Part> Scene::*parts) {
@@ -167,25 +212,44 @@ std::vector<Rule> place_rules(const std::string& table, std::vector<Part> Scene:
                   return broken;
                 }};
   };
-  return {{{from, to, "column.size"},
-           from + " and " + to + " have {} and {} numbers: {} here",
-           [parts](const Scene& scene) { return corners_miscounted(scene, scene.*parts); },
-           true},
-          {{from, to, at, "column.size"},
-           "a " + table + " from {} to {} m does not lie {}, 0 to {} m",
-           [parts](const Scene& scene) { return beside_the_end(scene, scene.*parts); }},
-          rule("column.size", ": a column of two dimensions has two sides, left and right",
-               [](const Column& column, ColumnFace face) { return column.dimensions == 2 && axis_of(face) == 2; }),
-          rule("column.sides", " and column.sides = \"periodic\" contradict each other: joined sides have no wall",
-               [](const Column& column, ColumnFace) { return column.sides == Boundary::periodic; }),
-          rule("column.shape", " is no side of an axisymmetric column, whose wall is \"right\"",
-               [](const Column& column, ColumnFace face) { return column.around_axis() && face == ColumnFace::left; }),
-          rule("column.profile", " and column.profile cannot be combined yet: leave column.profile out",
-               [](const Column& column, ColumnFace) { return column.around_axis() && column.is_tapered(); }),
-          rule("column.shape",
-               " in a cylinder, whose wall cuts cells, has no port yet: use column.shape = \"axisymmetric\" for a ring "
-               "around the wall, or \"box\"",
-               [](const Column& column, ColumnFace) { return column.is_round(); })};
+  return {
+      {{from, to, "column.size"},
+       from + " and " + to + " have {} and {} numbers: {} here",
+       [parts](const Scene& scene) { return corners_miscounted(scene, scene.*parts); },
+       true},
+      {{from, to, at, "column.size"},
+       "a " + table + " from {} to {} m does not lie {}, 0 to {} m",
+       [parts](const Scene& scene) { return beside_the_end(scene, scene.*parts); }},
+      rule("column.size", ": a column of two dimensions has two sides, left and right",
+           [](const Column& column, ColumnFace face) { return column.dimensions == 2 && axis_of(face) == 2; }),
+      rule("column.sides", " and column.sides = \"periodic\" contradict each other: joined sides have no wall",
+           [](const Column& column, ColumnFace) { return column.sides == Boundary::periodic; }),
+      rule("column.shape", " is no side of an axisymmetric column, whose wall is \"right\"",
+           [](const Column& column, ColumnFace face) { return column.around_axis() && face == ColumnFace::left; }),
+      rule("column.profile",
+           " in a cylinder and column.profile cannot be combined yet: leave column.profile out, or use column.shape "
+           "= \"axisymmetric\"",
+           [](const Column& column, ColumnFace) { return column.is_round() && column.is_tapered(); }),
+      {{at, from, to, "column.profile", "column.shape"},
+       at + " = \"{}\", from {} to {} m: a ring lies where column.profile has its greatest diameter, {} m, as the grid "
+            "ends there",
+       [parts](const Scene& scene) { return rings_in_a_narrow_part(scene, scene.*parts); }},
+      rule("column.grading", " in a cylinder and column.grading cannot be combined yet: leave column.grading out",
+           [](const Column& column, ColumnFace) { return column.is_round() && column.grading.has_value(); }),
+      {{at, from, to, "column.shape", "column.size"},
+       at + " = \"{}\" in a cylinder: " + from + " and " + to +
+           " lie between {} and {} m across, where the wall faces that side: a part of the next side takes the rest",
+       [parts](const Scene& scene) { return ports_beside_their_side(scene, scene.*parts); }},
+      {{at, "wall.thickness", "column.shape", "fluid.name"},
+       at + " = \"{}\" in a cylinder and [[wall]] in a fluid cannot be combined yet: leave out one of them",
+       [parts](const Scene& scene) {
+         Broken broken;
+         for (std::size_t n = 0; n < (scene.*parts).size(); ++n)
+           if (const ColumnFace face = (scene.*parts)[n].at;
+               is_side(face) && scene.column.is_round() && !scene.walls.empty() && scene.fluid.present())
+             broken.add({std::string(name_of(face))}, entry_of(scene, scene.*parts, n));
+         return broken;
+       }}};
 }
 
 std::vector<Rule> jet_rules() {

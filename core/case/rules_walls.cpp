@@ -90,7 +90,7 @@ Broken layers_with_corners(const Scene& scene) {
 /// Whether a part of the cross-section, for a feed or a jet, has a corner beyond a round column.
 template <class Part>
 bool is_beyond_the_circle(const Column& column, const Part& part, ColumnFace end) {
-  if (is_side(end)) return false;  // another rule rejects it
+  if (is_side(end)) return false;
   const double within = 0.5 * column.diameter_at(end) * (1 + 1e-12), centre = 0.5 * column.size[0];
   if (column.around_axis()) return column.is_tapered() && !part.to.empty() && part.to[0] > within;
   if (!column.is_round() || part.from.size() != 2 || part.to.size() != 2) return false;

@@ -39,6 +39,23 @@ std::shared_ptr<const Layers> layers_of(const Column& column) {
   return std::make_shared<const Layers>(std::move(layers));
 }
 
+/// Ducts of the ports in the side of a cylinder.
+Ducts ducts_of(const Scene& scene) {
+  Ducts ducts;
+  if (!scene.column.is_round() || scene.column.closed) return ducts;
+  const auto see = [&](const auto& parts) {
+    for (const auto& part : parts) {
+      if (!is_side(part.at) || part.from.size() != 2 || part.to.size() != 2) continue;
+      const Duct duct{axis_of(part.at), side_of(part.at), {part.from[0], part.from[1]}, {part.to[0], part.to[1]}};
+      if (std::find(ducts.begin(), ducts.end(), duct) == ducts.end()) ducts.push_back(duct);
+    }
+  };
+  see(scene.jets);
+  see(scene.feeds);
+  see(scene.discharges);
+  return ducts;
+}
+
 }  // namespace
 
 std::array<int, 3> choose_blocks(const Grid& column, int count) {
@@ -89,10 +106,12 @@ Grid grid_of(const Scene& scene, const std::shared_ptr<const Ranks>& ranks) {
   const auto is_whole = [](const InnerWall& wall) { return wall.from.size() == 2 && wall.to.size() == 2; };  // a rule
   const bool cut = std::any_of(scene.walls.begin(), scene.walls.end(), meets_fluid) &&
                    std::all_of(scene.walls.begin(), scene.walls.end(), is_whole);
-  return grid_of(scene.column, ranks, cut ? std::make_shared<std::vector<InnerWall>>(scene.walls) : nullptr);
+  return grid_of(scene.column, ranks, cut ? std::make_shared<std::vector<InnerWall>>(scene.walls) : nullptr,
+                 ducts_of(scene));
 }
 
-Grid grid_of(const Column& column, const std::shared_ptr<const Ranks>& ranks, const InsideWalls& walls) {
+Grid grid_of(const Column& column, const std::shared_ptr<const Ranks>& ranks, const InsideWalls& walls,
+             const Ducts& ducts) {
   Grid grid;
   grid.dimensions = column.dimensions;
   grid.cells = column.cells;
@@ -101,7 +120,7 @@ Grid grid_of(const Column& column, const std::shared_ptr<const Ranks>& ranks, co
   grid.periodic[0] = column.sides == core::Boundary::periodic;
   grid.periodic[2] = column.sides == core::Boundary::periodic && column.dimensions == 3;
   Grid block = block_of(grid, ranks);
-  block.metric = metric_of(block, column.shape, column.profile, walls);
+  block.metric = metric_of(block, column.shape, column.profile, walls, ducts);
   return block;
 }
 
@@ -115,7 +134,8 @@ Grid whole_column(const Grid& block) {
   if (block.cells == column.cells)
     column.metric = block.metric;
   else if (block.metric)
-    column.metric = metric_of(column, block.metric->shape, block.metric->taper, block.metric->walls);
+    column.metric =
+        metric_of(column, block.metric->shape, block.metric->taper, block.metric->walls, block.metric->ducts);
   return column;
 }
 

@@ -6,6 +6,7 @@
 
 #include "core/case/scene.hpp"
 #include "core/numerics/field.hpp"
+#include "core/numerics/metric.hpp"
 
 namespace polybed::core {
 
@@ -23,7 +24,7 @@ constexpr int least_block_cells = 4;
 /// column for null. The second form is without walls inside, or with those given.
 [[nodiscard]] Grid grid_of(const Scene& scene, const std::shared_ptr<const Ranks>& ranks);
 [[nodiscard]] Grid grid_of(const Column& column, const std::shared_ptr<const Ranks>& ranks,
-                           const std::shared_ptr<const std::vector<InnerWall>>& walls = nullptr);
+                           const InsideWalls& walls = nullptr, const Ducts& ducts = {});
 
 /// The grid of the whole column, on one rank.
 [[nodiscard]] Grid whole_column(const Grid& block);

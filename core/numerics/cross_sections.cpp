@@ -1,9 +1,12 @@
+// Longer than 400 lines because all columns, with their tapers and ducts, are built from the same cut cells.
 #include "core/numerics/cross_sections.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
+#include <map>
 #include <numbers>
 #include <numeric>
 #include <utility>
@@ -11,6 +14,9 @@
 namespace polybed::core {
 
 namespace {
+
+/// Places up to this share of a cell beyond its face are round-off.
+constexpr double near_face = 1e-9;
 
 /// Area of a disc about the origin with X <= x and Z <= z.
 class Disc {
@@ -97,6 +103,8 @@ class Sections {
     for (int i = 0; rings_ && i <= nx_; ++i) layer.open.radius.push_back(i * hx_);
     return layer;
   }
+  /// Opens the cells of a duct, from the side to where they are whole, and marks them.
+  void open_duct(const Duct& duct, OpenLayer& layer, std::vector<bool>& in_duct) const;
   /// Merges a small cell with the neighbour across its largest face, or in equal parts with two alike.
   void absorb_small_cells(OpenLayer& layer) const;
   /// Sets the wall of a layer with the open shares `below` at its low faces and `above` at its high ones.
@@ -159,6 +167,30 @@ void Sections::add_rings(double radius, double share, OpenLayer& layer) const {
   }
   for (int i = 0; i <= nx_; ++i)
     if (radius >= i) layer.open.x_face(i, 0) += share * 2.0 * i / nx_;
+}
+
+void Sections::open_duct(const Duct& duct, OpenLayer& layer, std::vector<bool>& in_duct) const {
+  CrossSection& open = layer.open;
+  const bool along_x = duct.axis == 0;
+  const int rows = along_x ? nz_ : nx_, length = along_x ? nx_ : nz_;
+  const double h = along_x ? hz_ : hx_;
+  for (int row = 0; row < rows; ++row) {
+    if (std::min(duct.to[0], (row + 1) * h) - std::max(duct.from[0], row * h) < near_face * h) continue;
+    for (int n = 0; n < length; ++n) {
+      const int cell = duct.side == 0 ? n : length - 1 - n, face = duct.side == 0 ? cell : cell + 1;
+      const int i = along_x ? cell : row, k = along_x ? row : cell;
+      (along_x ? open.x_face(face, k) : open.z_face(i, face)) = 1;
+      if (open.volume_of(i, k) > 1 - near_face && !in_duct[open.at(i, k)]) break;
+      open.volume_of(i, k) = 1;
+      in_duct[open.at(i, k)] = true;
+    }
+  }
+  const auto both = [&](int i, int k, int x, int z) { return in_duct[open.at(i, k)] && in_duct[open.at(x, z)]; };
+  for (int k = 0; k < nz_; ++k)
+    for (int i = 0; i < nx_; ++i) {
+      if (i > 0 && both(i, k, i - 1, k)) open.x_face(i, k) = 1;
+      if (k > 0 && both(i, k, i, k - 1)) open.z_face(i, k) = 1;
+    }
 }
 
 void Sections::absorb(int i, int k, OpenLayer& layer) const {
@@ -309,6 +341,32 @@ std::vector<double> level_between(const Sections& sections, double radius, const
   return open;
 }
 
+using Chosen = std::vector<std::size_t>;  ///< ducts, by number, in order
+
+CrossSection section_with_ducts(const Sections& sections, const Ducts& ducts, const Chosen& chosen) {
+  OpenLayer layer = sections.empty();
+  sections.add(sections.radius(), 1, layer);
+  std::vector<bool> in_duct(layer.open.volume.size(), false);
+  for (const std::size_t n : chosen) sections.open_duct(ducts[n], layer, in_duct);
+  sections.absorb_small_cells(layer);
+  layer.open.open_y = layer.open.volume;
+  sections.set_wall(layer.open.open_y, layer.open.open_y, {}, 0, layer);
+  for (std::size_t c = 0; c < in_duct.size(); ++c)  // a duct is short: it has no friction
+    if (in_duct[c]) layer.open.wall[c] = 0;
+  return std::move(layer.open);
+}
+
+/// Open shares of faces that lie between two layers: those of `common`, without the cells that one of both closes.
+std::vector<double> level_with_ducts(const CrossSection& common, const CrossSection& below, const CrossSection& above) {
+  std::vector<double> open = common.volume;
+  const double all = std::accumulate(open.begin(), open.end(), 0.0);
+  for (std::size_t c = 0; c < open.size(); ++c)
+    if (!(below.volume[c] > 0 && above.volume[c] > 0)) open[c] = 0;
+  const double left = std::accumulate(open.begin(), open.end(), 0.0);
+  for (double& share : open) share *= all / left;
+  return open;
+}
+
 }  // namespace
 
 double radius_at(const Taper& taper, double height, int side) {
@@ -354,6 +412,34 @@ std::vector<CrossSection> cross_sections(const Grid& column, bool rings, const T
   for (std::size_t n = 0; n < count; ++n) {
     sections.set_wall(result[n].open_y, result[n + 1].open_y, taper, (double(n) + 0.5) * column.spacing[1], layers[n]);
     result[n].wall = std::move(layers[n].open.wall);
+  }
+  return result;
+}
+
+std::vector<CrossSection> cross_sections_with_ducts(const Grid& column, const Ducts& ducts) {
+  const Sections sections(column, false);
+  std::map<Chosen, CrossSection> built;
+  const auto section = [&](const Chosen& chosen) -> const CrossSection& {
+    const auto known = built.find(chosen);
+    return known != built.end() ? known->second
+                                : built.emplace(chosen, section_with_ducts(sections, ducts, chosen)).first->second;
+  };
+  std::vector<Chosen> chosen{{}};  // those at each layer, from the one below the bottom to the one above the top
+  for (int y = 0; y < column.cells[1]; ++y) {
+    chosen.emplace_back();
+    for (std::size_t n = 0; n < ducts.size(); ++n)
+      if (std::min(ducts[n].to[1], column.low(1, y + 1)) - std::max(ducts[n].from[1], column.low(1, y)) >=
+          near_face * column.height(y))
+        chosen.back().push_back(n);
+  }
+  chosen.emplace_back();
+  std::vector<CrossSection> result;
+  for (std::size_t n = 1; n < chosen.size(); ++n) {
+    Chosen common;
+    std::set_intersection(chosen[n - 1].begin(), chosen[n - 1].end(), chosen[n].begin(), chosen[n].end(),
+                          std::back_inserter(common));
+    result.push_back(section(chosen[n]));
+    result.back().open_y = level_with_ducts(section(common), section(chosen[n - 1]), section(chosen[n]));
   }
   return result;
 }

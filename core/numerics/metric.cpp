@@ -115,6 +115,7 @@ CrossSection whole_section(const Grid& column) {
 /// Without walls inside.
 std::vector<CrossSection> layers_of(const Grid& column, const Metric& metric) {
   if (metric.shape == ColumnShape::box) return {whole_section(column)};
+  if (!metric.ducts.empty()) return cross_sections_with_ducts(column, metric.ducts);
   return cross_sections(column, metric.around_axis, metric.taper);
 }
 
@@ -130,13 +131,14 @@ std::vector<CrossSection> layers_between_walls(const Grid& column, const Metric&
 }  // namespace
 
 std::shared_ptr<const Metric> metric_of(const Grid& grid, ColumnShape shape, const Taper& taper,
-                                        const InsideWalls& walls) {
+                                        const InsideWalls& walls, const Ducts& ducts) {
   if (shape == ColumnShape::box && !grid.layers && !walls) return nullptr;
   auto metric = std::make_shared<Metric>();
   const Grid column = whole_column(grid);
   metric->shape = shape;
   metric->around_axis = shape == ColumnShape::axisymmetric;
   metric->taper = taper;
+  metric->ducts = ducts;
   metric->walls = walls;
   std::vector<CrossSection> uncut = layers_of(column, *metric);
   metric->layers = walls ? layers_between_walls(column, *metric, uncut) : uncut;

@@ -51,6 +51,15 @@ struct CrossSection {
   [[nodiscard]] std::size_t at(int i, int k) const { return std::size_t(i) + std::size_t(width) * std::size_t(k); }
 };
 
+/// A horizontal duct through which a port in the side of a cylinder meets the curved wall. The cells that it covers, at
+/// least in part, are open from the side of the box to the inside.
+struct Duct {
+  int axis = 0, side = 0;
+  std::array<double, 2> from{}, to{};  ///< across it along the other horizontal axis, and upward, m
+  bool operator==(const Duct&) const = default;
+};
+using Ducts = std::vector<Duct>;
+
 struct InnerWall;
 /// Walls inside a column; null without.
 using InsideWalls = std::shared_ptr<const std::vector<InnerWall>>;
@@ -60,6 +69,7 @@ struct Metric {
   InsideWalls walls;
   std::vector<CrossSection> layers;  ///< from the bottom; one entry: all alike; else one more for the top
   Taper taper;
+  Ducts ducts;                               ///< of a cylinder
   Field volume;                              ///< theta
   Field per_volume;                          ///< 1/theta; 0 where closed
   FaceField open;                            ///< alpha; 0 where closed
@@ -91,7 +101,7 @@ struct Metric {
 /// Metric of a block or of the whole column, from the shape of its column; null for a box of even layers without walls
 /// inside.
 [[nodiscard]] std::shared_ptr<const Metric> metric_of(const Grid& grid, ColumnShape shape, const Taper& taper = {},
-                                                      const InsideWalls& walls = nullptr);
+                                                      const InsideWalls& walls = nullptr, const Ducts& ducts = {});
 
 /// Equal cells: the compiler removes it from a kernel.
 struct UniformMetric {

@@ -168,7 +168,7 @@ std::int32_t ContactLoader::find_pairs(const Particles& particles, const Contact
 
 std::optional<Vector> ContactLoader::from_nearest(std::int32_t wall, const Vector& centre) const {
   const Wall& w = box_.walls[std::size_t(wall)];
-  if (w.plate >= 0) return box_.plates[std::size_t(w.plate)].to(centre);
+  if (w.plate >= 0) return box_.from_plate(w.plate, centre);
   return box_.from_opened(w.axis, w.side, centre);
 }
 

@@ -297,7 +297,11 @@ void EntryWeights::fit(const core::Grid& grid, const std::vector<double>& volume
 }
 
 std::shared_ptr<const RoundWeights> round_weights(const core::Grid& grid) {
-  return grid.metric && grid.metric->cut() ? std::make_shared<RoundWeights>(grid) : nullptr;
+  if (!grid.metric || !grid.metric->cut()) return nullptr;
+  if (grid.metric->ducts.empty()) return std::make_shared<RoundWeights>(grid);
+  core::Grid plain = grid;  // no particle lies in a duct, beyond the side
+  plain.metric = core::metric_of(grid, grid.metric->shape, grid.metric->taper, grid.metric->walls);
+  return std::make_shared<RoundWeights>(plain);
 }
 
 }  // namespace polybed::dem

@@ -79,6 +79,29 @@ class CoupledCases(Scratch):
         flow = history(directory)["overflow_m3_s"][-1]
         self.assertAlmostEqual(flow / (15e-3 * 24e-3 * 3e-3 + 8e-3 * 6e-3 * 3e-3), 1, delta=1e-6)
 
+    def test_a_tube_is_fed_and_overflows_through_its_wall(self):
+        """The same in a tube of 24 mm with ports of 6 by 6 mm and larger beads, by both models: 8 mm/s enter through its circle and through the
+        feed, where by hand 24 of 1.767 mm3 are called for in 0.15 s."""
+        text = (ROOT / "cases/overflow-pipe/case.toml").read_text()
+        for old, new in (('["24 mm", "40 mm"]', '["24 mm", "24 mm", "40 mm"]'), ("[12, 20]", "[12, 12, 20]"), ('depth  = "3 mm"', 'shape = "cylinder"'),
+                         ('"1 mm"', '"1.5 mm"'), ('"12 mm"', '"6 mm"'), ('"15 mm/s"', '"8 mm/s"'), ('["28 mm"]', '["9 mm", "28 mm"]'),
+                         ('["34 mm"]', '["15 mm", "34 mm"]'), ('["20 mm"]', '["9 mm", "6 mm"]'), ('["26 mm"]', '["15 mm", "12 mm"]'),
+                         ('"0.2 m/s"', '"0.5 m/s"'), ('until = "3 s"', 'until = "0.15 s"')):
+            self.assertIn(old, text)
+            text = text.replace(old, new)
+        case = self.write("tube.toml", text)
+        for model in ("tfm", "dem"):
+            directory = self.folder / model
+            record = strict_json(self.ends(DONE, model, case, "--quiet", "--json", "--no-picture", "-o", directory).stdout)
+            flow = history(directory)["overflow_m3_s"][-1]
+            self.assertAlmostEqual(flow / (8e-3 * np.pi * 12e-3**2 + 8e-3 * 36e-6), 1, delta=1e-5, msg=model)
+            self.assertGreater(history(directory)["out_beads_kg"][-1], 0)
+            self.assertTrue(all(invariant["held"] for invariant in record["invariants"]), (model, record["invariants"]))
+        fed, out = (record[key]["beads"]["particles"] for key in ("feed", "outflow"))
+        self.assertEqual(fed + record["feed"]["beads"]["waiting"], 24)
+        start = history(self.folder / "dem")["mass_beads_kg"][0] / (1300 * np.pi / 6 * 1.5e-3**3)
+        self.assertEqual(record["particles"], round(start) + fed - out)
+
     def test_a_graded_freeboard_leaves_the_bed_as_it_is(self):
         """The flow through a held bed, whose cells are the same; 1e-8 is the tolerance of the pressure."""
         drops = []

@@ -153,6 +153,24 @@ class Ranks(Scratch):
             self.on(1, CASE, *words, "--resume", "-o", cut)
             self.assertEqual(self.largest_difference(self.folder / "on1", cut), 0)
 
+    def test_what_crosses_the_wall_of_a_tube_is_the_same(self):
+        """Ports in cut cells on both sides of the cuts, and a restart on other ranks in the middle."""
+        ports = ('jet=[{at="front", from=[0.02, 0.02], to=[0.04, 0.1], superficial_velocity=0.1}]',
+                 'feed=[{species="fine", at="left", from=[0.01, 0.2], to=[0.03, 0.4], superficial_velocity=2e-3, velocity=0.05}]',
+                 'discharge=[{at="right", from=[0.02, 0.03], to=[0.05, 0.3], superficial_velocity=0.02}, '
+                 '{at="back", from=[0.02, 0.45], to=[0.04, 0.5], pressure=0}]', 'column.outlet="lid"')
+        words = ["--set", "column.shape=cylinder", "--set", "column.size=[0.06,0.06,0.62]", "--set", "column.cells=[12,12,40]", *FIXED, *TIGHT,
+                 *(word for port in ports for word in ("--set", port))]
+        case = self.write("tube.toml", case_without("depth"))
+        self.check_equal(*words, case=case, on=RANKS[-1:], same=SHARED)
+        rows = history(self.folder / "on1")
+        self.assertGreater(rows["discharge1_fine_kg"][-1], 0)
+        self.assertAlmostEqual(rows["discharge1_m3_s"][-1] / (0.03 * 0.27 * 0.02), 1, delta=1e-12)
+        cut = self.folder / "cut"
+        self.on(RANKS[-1], case, *words, "--until", "0.02", "-o", cut)
+        self.on(1, case, *words, "--resume", "-o", cut)
+        self.assertLessEqual(self.largest_difference(self.folder / "on1", cut), SHARED)
+
     def test_momentum_of_second_order_is_the_same(self):
         """Fluxes of the solids are taken from neighbours across every cut, corners included."""
         self.check_equal(*FLAT, *FIXED, "--set", 'tfm.momentum="conservative_limited"', on=RANKS[-1:])

@@ -151,6 +151,43 @@ TEST(RoundColumn, IsTheSameInBlocks) {
   checks::expect_part_of(grid, *whole, part, *block);
 }
 
+// A duct of four rows and one layer from the left, one of two rows and two layers from the back. The side of the box is
+// open to their rows alone, what is open leads to open cells, and levels have the area of the circle, where no duct
+// passes them.
+TEST(RoundColumn, HasDuctsToItsPorts) {
+  constexpr int cells = 12;
+  Grid grid = grid_across(cells, 3);
+  const Ducts ducts{{0, 0, {0.35, 0.1}, {0.62, 0.2}}, {2, 1, {0.5, 0.15}, {0.65, 0.3}}};
+  const auto metric = metric_of(grid, ColumnShape::cylinder, {}, nullptr, ducts);
+  const auto theta = [&](Index c) { return metric->volume[std::size_t(c)]; };
+  for (int j = 0; j < 4; ++j)
+    for (int n = 0; n < cells; ++n) {
+      const bool left = j == 1 && n >= 4 && n <= 7, back = (j == 1 || j == 2) && (n == 6 || n == 7);
+      EXPECT_EQ(metric->open[0][std::size_t(grid.index(0, j, n))], left ? 1 : 0) << j << ' ' << n;
+      EXPECT_EQ(metric->open[2][std::size_t(grid.index(n, j, cells))], back ? 1 : 0) << j << ' ' << n;
+      EXPECT_EQ(metric->open[0][std::size_t(grid.index(cells, j, n))], 0);
+      EXPECT_EQ(metric->open[2][std::size_t(grid.index(n, j, 0))], 0);
+      if (left) EXPECT_EQ(theta(grid.index(0, j, n)), 1);
+    }
+  for (int axis = 0; axis < 3; ++axis)
+    for_each_row(grid, interior_faces(grid, axis), [&](Index begin, Index end) {
+      for (Index f = begin; f < end; ++f)
+        if (metric->open[std::size_t(axis)][std::size_t(f)] > 0)
+          EXPECT_TRUE(theta(f) > 0 && theta(f - grid.stride(axis)) > 0) << axis << ' ' << f;
+    });
+  grid.metric = metric;
+  EXPECT_GT(open_faces_below(grid, 2), open_faces_below(grid, 0));
+  for (const int level : {0, 1, 3, 4})
+    EXPECT_NEAR(open_faces_below(grid, level) / (cells * cells), pi / 4, 1e-13) << level;
+  EXPECT_GT(open_cells_of_layer(grid, 1), open_cells_of_layer(grid, 0));
+  EXPECT_NEAR(open_cells_of_layer(grid, 3) / (cells * cells), pi / 4, 1e-13);
+  Grid part = grid;
+  part.cells[0] = 5;
+  part.after[0] = 7;
+  const auto block = metric_of(part, ColumnShape::cylinder, {}, nullptr, ducts);
+  checks::expect_part_of(grid, *metric, part, *block);
+}
+
 // 10 m in 10 layers, graded above 4 m by at most 1.2: 6 m are left. 1.2 + 1.44 + 1.728 = 4.368 m are too little, with
 // 2.0736 m more four layers are enough; r + r2 + r3 + r4 = 6 for r = 1.1689595, by Newton's method.
 TEST(GradedLayers, GrowByTheLargestRatioThatFits) {
