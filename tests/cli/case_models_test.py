@@ -171,6 +171,10 @@ class Warnings(CaseTest):
         floats = 'species "fine" (900 kg/m3) is lighter than the fluid'
         self.assertIn(floats, "\n".join(self.notes("species.fine.density=900")))
         self.assertNotIn(floats, "\n".join(self.notes("species.fine.density=900", "inlet.superficial_velocity=0")))
+        overflow = 'discharge=[{{at="right", from=[0.1], to=[0.12], pressure={}}}]'  # 1395 kg/m3 over 0.2 m weigh 2737 Pa
+        self.assertRegex("\n".join(self.notes(overflow.format(1e5))),
+                         r"discharge.pressure = 100000 Pa of \[\[discharge\]\] number 1 exceeds 2.74e\+03 Pa, .* in with up to 14.1 m/s")
+        self.assertNotIn("exceeds", "\n".join(self.notes(overflow.format(2700))))
         done = run("tfm", self.write("case.toml", BED), "--set", "species.fine.density=900", "--set", "run.until=1e-4", "-o",
                    self.folder / "run")
         self.assertIn("warning: " + floats, done.stderr)

@@ -161,6 +161,7 @@ TEST(Speeds, OfAChannelThroughABed) {
 // that, as for other flows.
 TEST(Speeds, OfAnOverflow) {
   core::Scene scene = spheres();
+  scene.column.dimensions = 3;
   scene.column.size[1] = 1;
   scene.fluid.name = "liquid";
   scene.fluid.density = 2500;
