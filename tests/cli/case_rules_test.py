@@ -77,9 +77,8 @@ KEYS = {
     'fluid.equation_of_state = "incompressible"': [*AIR, TILTED],
     "column.gravity_direction other than down needs a fluid whose flow is given at both ends, since the pressure at an outlet is that of a "
     'level surface: use inlet.at = "top", or column.closed = true without inlet.superficial_velocity and [[jet]]': [TILTED],
-    **{f'column.ends = "periodic" and {what} contradict each other': [JOINED, setting] for what, setting in (
-        ("column.closed = true", "column.closed=true"), ('column.outlet = "open"', "column.outlet=open"), ('column.outlet = "lid"', "column.outlet=lid"),
-        ("[[feed]]", feeds("")), ("column.grading", GRADED))},
+    **{f'column.ends = "periodic" and {what} contradict each other': [JOINED, setting] for what, setting in (("[[feed]]", feeds("")),
+        ("column.closed = true", "column.closed=true"), ("column.grading", GRADED), *((f'column.outlet = "{a}"', f"column.outlet={a}") for a in ("open", "lid")))},
     'column.ends = "periodic" is for particles without a fluid, or for a sheared box whose fluid moves with its flow: set '
     'fluid.name = "none", or dem.shear_rate': [JOINED],
     'dem.shear_rate = {} 1/s needs column.sides = "periodic"': [SHEARED],
@@ -121,9 +120,8 @@ KEYS = {
     'inlet.at = "top" and a compressible fluid contradict each other: its pressure is given at the top': [AT_TOP[1], *AIR],
     **{f'{what} cannot act: fluid.name = "none"': [DRY, setting] for what, setting in (
         ("inlet.superficial_velocity", "inlet.superficial_velocity=0.1"), ("[[jet]]", jets(([0.01], [0.02]))), AT_TOP, ("column.grading", GRADED),
-        ('column.outlet = "lid", which stops the fluid alone,', "column.outlet=lid"),
-        ("fluid.temperature", "fluid.temperature=300"), ("fluid.density", "fluid.density=1"), ("fluid.viscosity", "fluid.viscosity=1"),
-        ("fluid.equation_of_state", "fluid.equation_of_state=tait"), ("species.sphericity", "species.fine.sphericity=0.9"))},
+        ('column.outlet = "lid", which stops the fluid alone,', "column.outlet=lid"), ("fluid.temperature", "fluid.temperature=300"), ("fluid.density", "fluid.density=1"),
+        ("fluid.viscosity", "fluid.viscosity=1"), ("fluid.equation_of_state", "fluid.equation_of_state=tait"), ("species.sphericity", "species.fine.sphericity=0.9"))},
     **{f"{what} cannot act: column.closed = true": ["column.closed=true", setting] for what, setting in (
         ("inlet.superficial_velocity", "inlet.superficial_velocity=0.1"), ("[[jet]]", jets(([0.01], [0.02]))), AT_TOP, ("[[feed]]", feeds("")),
         ('column.outlet = "open"', "column.outlet=open"), ('column.outlet = "lid"', "column.outlet=lid"))},

@@ -159,7 +159,7 @@ class Ranks(Scratch):
                  'feed=[{species="fine", at="left", from=[0.01, 0.2], to=[0.03, 0.4], superficial_velocity=2e-3, velocity=0.05}]',
                  'discharge=[{at="right", from=[0.02, 0.03], to=[0.05, 0.3], superficial_velocity=0.02}, '
                  '{at="back", from=[0.02, 0.45], to=[0.04, 0.5], pressure=0}]', 'column.outlet="lid"')
-        words = ["--set", "column.shape=cylinder", "--set", "column.size=[0.06,0.06,0.62]", "--set", "column.cells=[12,12,40]", *FIXED, *TIGHT,
+        words = ["--set", "column.shape=cylinder", "--set", "column.size=[0.06,0.06,0.62]", "--set", "column.cells=[8,8,24]", *FIXED, *TIGHT,
                  *(word for port in ports for word in ("--set", port))]
         case = self.write("tube.toml", case_without("depth"))
         self.check_equal(*words, case=case, on=RANKS[-1:], same=SHARED)

@@ -1,5 +1,5 @@
 // Particles that enter and leave through the sides of a column: the rim of a hole, what passing particles count for in
-// a fluid, and the accounts.
+// a fluid, and the accounts. Longer than 400 lines because flat and curved sides share the scenes.
 #include <numeric>
 
 #include "measures/particle_profile.hpp"
