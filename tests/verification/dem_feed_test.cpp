@@ -235,7 +235,8 @@ TEST(DemFeed, AnInverseBedIsTheMirrorImage) {
 
 // The water presses the beads down as much as their weight lacks: p falls downwards by N V (rho_f - rho_p) g/A. Above
 // the centre of the topmost cell, 2 mm high, is the screen's share of those near it, linear in the height. Beads are
-// counted, and so is their energy. 3 %: the beads' own acceleration over the time of the mean.
+// counted, and so is their energy. 5 %: beads that enter bring 2 % of it as momentum, and that of the water changes by
+// rho J^2 (1/eps - 1), 3 % at a voidage of 0.7.
 TEST(DemFeed, AnInverseBedCarriesItsBuoyancy) {
   Beads beads(inverse(false), under_the_top(false));
   const dem::Model& model = beads.model;
@@ -260,7 +261,7 @@ TEST(DemFeed, AnInverseBedCarriesItsBuoyancy) {
   }
   EXPECT_EQ(model.particle_count(), 100 + model.feeding()->all());
   EXPECT_GT(model.feeding()->all(), 10);  // others wait for room
-  compare("pressure over the buoyancy of the beads", fall / weight, 1, 0.03);
+  compare("pressure over the buoyancy of the beads", fall / weight, 1, 0.05);
   compare("ledger of an inverse bed", dem::totals_of(model).sum() - start.sum(), 0, 1e-3, greatest);
 }
 

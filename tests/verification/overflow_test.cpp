@@ -233,8 +233,8 @@ core::Scene tube_with_ports(core::TfmIntegrator integrator, bool open) {
   return scene;
 }
 
-// Each port has the area of its rectangle, in whatever cells of the cut wall. What has left by all ways is what is
-// missing.
+// Each port has the area of its rectangle, in whatever cells of the cut wall: to the pressure's tolerance, 1e-8, times
+// some. What has left by all ways is what is missing.
 TEST_P(Overflow, PortsInTheWallOfATube) {
   constexpr double area = std::numbers::pi * 0.015 * 0.015, jet = 0.0075 * 0.012 * 0.05, feed = 0.012 * 0.012 * 0.004,
                    discharge = 0.01 * 0.01 * 0.02;
@@ -246,18 +246,18 @@ TEST_P(Overflow, PortsInTheWallOfATube) {
     advance_past_breakpoints(model, 0.1);
     const core::Grid& grid = model.constants().grid;
     const core::Field& upward = model.fields().fluid.flux[1];
-    EXPECT_NEAR(passing(grid, upward, 7) / (0.03 * area + jet), 1, 1e-5);
-    EXPECT_NEAR(passing(grid, upward, 12) / (0.03 * area + jet - discharge), 1, 1e-5);
+    EXPECT_NEAR(passing(grid, upward, 7) / (0.03 * area + jet), 1, 1e-6);
+    EXPECT_NEAR(passing(grid, upward, 12) / (0.03 * area + jet - discharge), 1, 1e-6);
     const double out = 0.03 * area + jet + feed - discharge;
     record("flow out over the given, less 1", (open ? model.overflow() : passing(grid, upward, 30)) / out - 1);
-    EXPECT_NEAR((open ? model.overflow() : passing(grid, upward, 30)) / out, 1, 1e-5);
+    EXPECT_NEAR((open ? model.overflow() : passing(grid, upward, 30)) / out, 1, 1e-6);
     EXPECT_NEAR(model.passed()[0].in / (feed * 0.1), 1, 1e-10);
     EXPECT_GT(model.passed()[1].out, 0);
     EXPECT_LT(ledger_error(model, start), 1e-12);
     const std::vector<double> flows = model.exits().flows(0.1, model.fields().fluid.flux);
     ASSERT_EQ(flows.size(), 2u);
     EXPECT_NEAR(flows[0] / discharge, 1, 1e-12);
-    EXPECT_NEAR(flows[1] / out, 1, 1e-5);
+    EXPECT_NEAR(flows[1] / out, 1, 1e-6);
     for (std::size_t j = 0; j < 2; ++j) {
       const auto left = model.exits().passed(model.constants().openings, model.fields().solids);
       EXPECT_NEAR(left[0][j] + left[1][j], model.passed()[j].out, 1e-12 * start[j]);
