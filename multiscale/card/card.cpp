@@ -199,9 +199,6 @@ void write_card(core::Json& json, const core::Scene& scene, const Card& card) {
   const BedOfRun& seen = card.seen;
   core::Json tops;
   for (const auto& [name, top] : seen.tops) tops[name] = json_of(top);
-  core::Json exits;
-  for (const BedOfRun::Exit& exit : seen.exits)
-    exits[exit.name] = {{"flow_m3_s", json_of(exit.flow)}, {"out_kg", json_or_null(exit.out)}};
   json["card"] = velocities_of(scene, card.expected);
   json["card"].update({
       {"state", core::text_or_null(name_of(seen.state))},
@@ -214,7 +211,6 @@ void write_card(core::Json& json, const core::Scene& scene, const Card& card) {
       {"mixing", core::or_null(seen.mixing)},
       {"mass_kg", json_or_null({seen.masses.begin(), seen.masses.end()})},
       {"out_kg", json_or_null(seen.out)},
-      {"exits", exits},
       {"recovery", json_or_null(seen.recovery)},
       {"discharge_kg_s", core::or_null(seen.discharge)},
       {"steady", seen.steady ? core::Json(*seen.steady) : core::Json()},
@@ -223,6 +219,8 @@ void write_card(core::Json& json, const core::Scene& scene, const Card& card) {
       {"time_s", {{"taken", core::or_null(card.taken)}, {"predicted", card.predicted.expected}}},
       {"lines", result_lines(card)},
   });
+  for (const BedOfRun::Exit& exit : seen.exits)
+    json["card"]["exits"][exit.name] = {{"flow_m3_s", json_of(exit.flow)}, {"out_kg", json_or_null(exit.out)}};
   json["drift"] = drift_of(seen);
 }
 
