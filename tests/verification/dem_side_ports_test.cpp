@@ -151,8 +151,11 @@ TEST(DemSidePorts, AWallAlongARimPushesOnce) {
 // Without loss a sphere that strikes the rim on its way out takes with it what it had: m g h and m v^2/2. 1e-4: the
 // integration's error of an impact of 100 steps.
 TEST(DemSidePorts, TakesOutTheEnergyThatCameIn) {
-  for (const ColumnFace at : {ColumnFace::left, ColumnFace::back}) {
+  for (const auto& [at, shape] :
+       {std::pair{ColumnFace::left, core::ColumnShape::box}, std::pair{ColumnFace::back, core::ColumnShape::box},
+        std::pair{ColumnFace::back, core::ColumnShape::cylinder}}) {
     core::Scene scene = holed(at);
+    scene.column.shape = shape;
     scene.column.gravity = 9.81;
     core::set_restitution(scene, 1);
     core::set_friction(scene, 0);
