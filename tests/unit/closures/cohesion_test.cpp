@@ -9,6 +9,7 @@
 #include "closures/cohesion_jkr.hpp"
 #include "closures/cohesion_van_der_waals.hpp"
 #include "closures/contact_hertz.hpp"
+#include "closures/film_impulse.hpp"
 #include "closures/lubrication.hpp"
 #include "closures/rolling_friction.hpp"
 
@@ -142,6 +143,22 @@ TEST(Lubrication, ByHand) {
   EXPECT_NEAR(unresolved_film_resistance(1e-3, 1e-3, 1e-5, 1e-4, 1e-7), 0.0016964600329384883, 1e-17);  // 5.4e-4 pi
   EXPECT_EQ(unresolved_film_resistance(1e-3, 1e-3, 1e-4, 1e-4, 1e-7), 0);
   EXPECT_EQ(unresolved_film_resistance(1e-3, 1e-3, 1e-5, 1e-4, 2e-4), 0);  // thicker than what is resolved
+}
+
+// c = 6e-9 pi N s. From 5e-5 m to 1e-5 m: c (ln 5 - 0.4); in contact from 0 to -1e-7 m at a roughness of 1e-7 m:
+// c (1 - 1e-3). Both ways, and from beyond the range, the sum of the parts.
+TEST(Lubrication, ImpulseOfAFilmByHand) {
+  const auto impulse = [](double before, double after) {
+    return unresolved_film_impulse(1e-3, 1e-3, before, after, 1e-4, 1e-7);
+  };
+  EXPECT_NEAR(impulse(5e-5, 1e-5), 2.27973676e-8, 1e-16);
+  EXPECT_NEAR(impulse(1e-5, 5e-5), -2.27973676e-8, 1e-16);
+  EXPECT_NEAR(impulse(0, -1e-7), 1.88307064e-8, 1e-16);
+  EXPECT_NEAR(impulse(3e-4, -1e-7), impulse(1e-4, 1e-6) + impulse(1e-6, 0) + impulse(0, -1e-7), 1e-22);
+  EXPECT_EQ(impulse(3e-4, 1e-4), 0);
+  EXPECT_EQ(unresolved_film_impulse(1e-3, 1e-3, 1e-5, 0, 1e-4, 2e-4), 0);
+  // The mean resistance over a small change of the gap.
+  EXPECT_NEAR(impulse(1.001e-5, 0.999e-5) / 2e-8, unresolved_film_resistance(1e-3, 1e-3, 1e-5, 1e-4, 1e-7), 1e-9);
 }
 
 }  // namespace
