@@ -72,11 +72,12 @@ void estimate_resolve(const ResolveOptions& options) {
   for (const double voidage : plan.voidage)
     for (const double reynolds : plan.reynolds) {
       double seconds = 0, bytes = 0;
-      for (int grid = 0; grid < plan.grids; ++grid) {
-        const BoxNeed need = box_need(scene, {voidage, reynolds, 0, grid});
-        seconds += plan.packings * double(passed(scene).size()) * need.sites * need.steps / rate;
-        bytes = std::max(bytes, need.bytes);
-      }
+      for (int grid = 0; grid < plan.grids; ++grid)
+        for (const std::vector<int>& past : passed(scene, reynolds)) {
+          const BoxNeed need = box_need(scene, {voidage, reynolds, 0, grid, past});
+          seconds += plan.packings * need.sites * need.steps / rate;
+          bytes = std::max(bytes, need.bytes);
+        }
       points.push_back({{"eps", voidage}, {"time_s", seconds}, {"memory_bytes", bytes}});
       if (!free) points.back()["Re"] = reynolds;
       if (!options.json)
@@ -181,7 +182,7 @@ class ResolveRun {
       for (const double reynolds : plan.reynolds)
         for (int packing = 0; packing < plan.packings; ++packing)
           for (int grid = 0; grid < plan.grids; ++grid)
-            for (const int past : passed(scene_)) {
+            for (const std::vector<int>& past : passed(scene_, reynolds)) {
               const ResolvePoint point{voidage, reynolds, packing, grid, past};
               boxes_.push_back({point, box_name(scene_, point)});
               std::string& text = finished_[boxes_.back().name];
@@ -222,10 +223,11 @@ class ResolveRun {
 
   /// Writes rows whose boxes are finished, after those already written.
   void write_rows() {
-    const std::size_t parts = passed(scene_).size(), of_packing = std::size_t(scene_.resolve.grids) * parts;
-    const std::size_t of_row = std::size_t(scene_.resolve.packings) * of_packing;
-    for (; rows_ * of_row < boxes_.size(); ++rows_) {
-      const Box* const begin = boxes_.data() + rows_ * of_row;
+    while (in_rows_ < boxes_.size()) {
+      const Box* const begin = boxes_.data() + in_rows_;
+      const std::size_t parts = passed(scene_, begin->point.reynolds).size();
+      const std::size_t of_packing = std::size_t(scene_.resolve.grids) * parts;
+      const std::size_t of_row = std::size_t(scene_.resolve.packings) * of_packing;
       RowBoxes drags(of_row / of_packing, {of_packing / parts, std::vector<BoxDrag>()});
       for (std::size_t n = 0; n < of_row; ++n) {
         const std::string& text = finished_[begin[n].name];
@@ -234,6 +236,7 @@ class ResolveRun {
       }
       const std::string row = row_text(scene_, begin->point.voidage, begin->point.reynolds, drags);
       table_ += row + "\n";
+      in_rows_ += of_row;
       if (!first_) continue;
       core::write_atomically(directory_ / "rows.csv", table_);
       if (!options_.json) core::print("{}\n", row);
@@ -245,9 +248,9 @@ class ResolveRun {
     const auto now = std::chrono::steady_clock::now();
     if (!options_.quiet && now - said_ > std::chrono::seconds(5)) {
       said_ = now;
+      const std::int64_t all = plan_of(scene_, point).steps;
       core::print(stderr, "{}: {:.0f} steps{}\n", place_of(point), steps,
-                  free_ ? fmt::format(" of {}", plan_of(scene_, point).steps)
-                        : fmt::format(", drag changes by {:.2g}", change));
+                  all > 0 ? fmt::format(" of {}", all) : fmt::format(", drag changes by {:.2g}", change));
     }
     return !interrupt_.wanted();
   }
@@ -263,11 +266,18 @@ class ResolveRun {
       core::print(stderr, "warning: the drag of this box still changes by {:.2g}: its flow is unsteady\n", box.change);
   }
 
+  [[nodiscard]] std::string past_text(const std::vector<int>& past) const {
+    std::string text;
+    for (const int j : past)
+      text += fmt::format("{} '{}'", text.empty() ? ", past" : " and", scene_.species[std::size_t(j)].name);
+    return text;
+  }
+
   [[nodiscard]] std::string place_of(const ResolvePoint& point) const {
     return fmt::format("{}, packing {} of {}, {:.3g} cells per diameter",
                        point_text(point.voidage, point.reynolds, free_), point.packing + 1, scene_.resolve.packings,
                        cells_of(scene_.resolve, point.grid)) +
-           (point.past < 0 ? "" : fmt::format(", past '{}'", scene_.species[std::size_t(point.past)].name));
+           past_text(point.past);
   }
 
   core::Interrupt interrupt_;
@@ -283,7 +293,7 @@ class ResolveRun {
   std::map<std::string, std::string> finished_;  ///< text of each box; empty for an unfinished one
   SpherePacking spheres_;
   std::pair<double, int> spheres_of_{0, -1};  ///< voidage and packing
-  std::size_t rows_ = 0;                      ///< number written
+  std::size_t in_rows_ = 0;                   ///< boxes whose rows are written
   std::string table_;
   std::chrono::steady_clock::time_point said_;  ///< initially long ago, so that the first line comes at once
   double done_ = 0, seconds_ = 0;

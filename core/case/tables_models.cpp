@@ -207,8 +207,8 @@ Table resolve_table() {
       {
           key(&Resolve::voidage, "voidage", range(0.3, 0.99), help("of the boxes of polybed resolve, one or more")),
           key(&Resolve::motion, "motion",
-              help("of the spheres: held; moving: each species past all others in Stokes flow, for the forces by "
-                   "relative motion; free: under drag, weight and contacts")),
+              help("of the spheres: held; moving: each species past all others, for the forces by relative motion; "
+                   "free: under drag, weight and contacts")),
           key(&Resolve::reynolds, "reynolds", range(0, 300),
               help("of the Sauter diameter and the superficial velocity, one or more; 0: Stokes flow")),
           key(&Resolve::cells_per_diameter, "cells_per_diameter", range(6, 200),

@@ -11,8 +11,23 @@
 #include "core/error.hpp"
 #include "multiscale/resolve/free_box.hpp"
 #include "multiscale/resolve/lattice/steady.hpp"
+#include "multiscale/resolve/moving_box.hpp"
 
 namespace polybed::multiscale {
+
+std::vector<lattice::Sphere> spheres_of(const core::Scene& scene, const SpherePacking& packing, double scale) {
+  std::vector<lattice::Sphere> spheres;
+  for (std::size_t n = 0; n < packing.centre.size(); ++n) {
+    lattice::Point centre = packing.centre[n];
+    for (double& x : centre) x *= scale;
+    spheres.push_back({centre, 0.5 * scene.species[packing.species[n]].diameter * scale});
+  }
+  return spheres;
+}
+
+lattice::FlowSetup flow_setup(const BoxPlan& box, bool inertia) {
+  return {{box.edge, box.edge, box.edge}, box.units.viscosity, inertia, lattice::Wall::interpolated};
+}
 
 namespace {
 
@@ -25,30 +40,13 @@ constexpr double most_windows = 200;
 template <class Real>
 constexpr double steady_change = std::is_same_v<Real, float> ? 1e-4 : 1e-5;
 
-std::vector<lattice::Sphere> spheres_of(const core::Scene& scene, const SpherePacking& packing, double scale) {
-  std::vector<lattice::Sphere> spheres;
-  for (std::size_t n = 0; n < packing.centre.size(); ++n) {
-    lattice::Point centre = packing.centre[n];
-    for (double& x : centre) x *= scale;
-    spheres.push_back({centre, 0.5 * scene.species[packing.species[n]].diameter * scale});
-  }
-  return spheres;
-}
-
-lattice::FlowSetup setup_of(const BoxPlan& box, double reynolds) {
-  return {{box.edge, box.edge, box.edge}, box.units.viscosity, reynolds > 0, lattice::Wall::interpolated};
-}
-
-/// Whether a species moves with the fluid past another one.
-bool moves(const ResolvePoint& point, std::size_t species) { return point.past >= 0 && int(species) != point.past; }
-
 /// Fluid and all other species move past one species, at fixed positions: for Stokes flow.
 template <class Real>
 void set_relative_motion(lattice::Flow<Real>& flow, const ResolvePoint& point, const SpherePacking& packing,
                          const std::vector<lattice::Sphere>& spheres, const lattice::Point& velocity) {
   std::vector<lattice::Motion> motion;
   for (std::size_t n = 0; n < spheres.size(); ++n)
-    motion.push_back({spheres[n].centre, moves(point, packing.species[n]) ? velocity : lattice::Point{}, {}});
+    motion.push_back({spheres[n].centre, is_passed(point, packing.species[n]) ? lattice::Point{} : velocity, {}});
   flow.set_motion(motion);
   flow.set_velocity(velocity);
 }
@@ -59,8 +57,8 @@ std::vector<double> film_forces(const core::Scene& scene, const ResolvePoint& po
   std::vector<double> force(spheres.size(), 0);
   for (std::size_t m = 0; m < spheres.size(); ++m)
     for (std::size_t n = 0; n < m; ++n) {
-      const bool moving = moves(point, packing.species[m]);
-      if (moving == moves(point, packing.species[n])) continue;
+      const bool moving = !is_passed(point, packing.species[m]);
+      if (moving != is_passed(point, packing.species[n])) continue;
       lattice::Point d;
       for (std::size_t k = 0; k < 3; ++k) {
         d[k] = spheres[m].centre[k] - spheres[n].centre[k];
@@ -92,7 +90,11 @@ double rate_of(const core::Scene& scene, const ResolvePoint& point, const Sphere
     FreeBox<Real> free(scene, point, packing);
     return rate([&] { free.step(); });
   }
-  const lattice::FlowSetup setup = setup_of(box, point.reynolds);
+  if (places_move(scene, point)) {
+    MovingBox<Real> moving(scene, point, packing);
+    return rate([&] { moving.step(); });
+  }
+  const lattice::FlowSetup setup = flow_setup(box, point.reynolds > 0);
   lattice::Flow<Real> flow(setup, lattice::Spheres(spheres_of(scene, packing, box.scale), setup.box));
   return rate([&] { flow.advance({0, 0, 0}); });
 }
@@ -129,10 +131,10 @@ BoxDrag resolved(const core::Scene& scene, const ResolvePoint& point, const Sphe
   plan.window = box.window;
   plan.tolerance = steady_change<Real>;
   plan.most_steps = std::llround(most_windows * plan.window);
-  const lattice::FlowSetup setup = setup_of(box, point.reynolds);
+  const lattice::FlowSetup setup = flow_setup(box, point.reynolds > 0);
   lattice::Flow<Real> flow(setup, lattice::Spheres(spheres, setup.box));
   std::vector<double> films(spheres.size(), 0);
-  if (point.past >= 0) {
+  if (point.reynolds == 0 && !point.past.empty()) {
     const double velocity = units.speed / flow.fluid_sites() * std::pow(box.edge, 3);
     set_relative_motion(flow, point, packing, spheres, {velocity, 0, 0});
     films = film_forces(scene, point, packing, spheres, box, velocity);
@@ -196,6 +198,7 @@ double measured_rate(const core::Scene& scene, const ResolvePoint& point, const 
 BoxDrag box_drag(const core::Scene& scene, const ResolvePoint& point, const SpherePacking& packing,
                  const StillWanted& wanted, const KeptBox* kept) {
   if (scene.resolve.motion == core::SphereMotion::free) return free_box(scene, point, packing, wanted, kept);
+  if (places_move(scene, point)) return moving_box(scene, point, packing, wanted, kept);
   return scene.resolve.precision == core::Precision::one ? resolved<float>(scene, point, packing, wanted, kept)
                                                          : resolved<double>(scene, point, packing, wanted, kept);
 }

@@ -11,8 +11,8 @@
 
 namespace polybed::multiscale {
 
-/// Forces over Stokes' at the superficial velocity, means over the spheres of each species. If one species is passed,
-/// only the forces from its relative motion.
+/// Forces over Stokes' at the superficial velocity, means over the spheres of each species. If some species are passed,
+/// only the forces from their relative motion.
 struct BoxDrag {
   std::vector<double> net, pure;             ///< n_j, f_j; for free spheres each at its own velocity
   std::vector<double> slip, along, across;   ///< free spheres: superficial slip, rms velocities within a species, m/s
@@ -29,6 +29,11 @@ using StillWanted = std::function<bool(double steps, double change)>;
 /// core::NumericsError. \param kept  stores the flow at intervals and at a stop, and restores it
 [[nodiscard]] BoxDrag box_drag(const core::Scene& scene, const ResolvePoint& point, const SpherePacking& packing,
                                const StillWanted& wanted, const KeptBox* kept = nullptr);
+
+/// Spheres of a packing in cells; flow between them.
+[[nodiscard]] std::vector<lattice::Sphere> spheres_of(const core::Scene& scene, const SpherePacking& packing,
+                                                      double scale);
+[[nodiscard]] lattice::FlowSetup flow_setup(const BoxPlan& box, bool inertia);
 
 /// Sites per second on this machine in the box of a point, measured for about a second.
 [[nodiscard]] double measured_rate(const core::Scene& scene, const ResolvePoint& point, const SpherePacking& packing);

@@ -1,15 +1,14 @@
 #include "multiscale/resolve/free_box.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <numbers>
-#include <optional>
 
 #include "closures/contact_pair.hpp"
 #include "closures/sphere.hpp"
 #include "core/error.hpp"
 #include "dem/step_limits.hpp"
+#include "multiscale/resolve/timed_box.hpp"
 #include "relevance/effects/lubrication.hpp"
 #include "relevance/fluid_properties.hpp"
 
@@ -18,9 +17,6 @@ namespace polybed::multiscale {
 namespace {
 
 using std::numbers::pi;
-
-/// Steps of the fluid between two samples of the velocities, which change more slowly.
-constexpr std::int64_t sampled = 20;
 
 /// The spheres of a packing with their contacts and films; their drag is resolved.
 core::Scene suspension(const core::Scene& scene, const SpherePacking& packing, double greatest_speed) {
@@ -61,10 +57,6 @@ std::vector<lattice::Sphere> spheres_at(const dem::Particles& particles, double 
   return spheres;
 }
 
-lattice::FlowSetup setup_of(const BoxPlan& plan) {
-  return {{plan.edge, plan.edge, plan.edge}, plan.units.viscosity, true, lattice::Wall::interpolated};
-}
-
 /// Four times the fall speed of the fastest species alone: contacts push some spheres faster.
 double greatest_speed(const BoxPlan& plan) { return 4 * plan.units.speed / plan.scale / plan.step; }
 
@@ -78,7 +70,8 @@ FreeBox<Real>::FreeBox(const core::Scene& scene, const ResolvePoint& point, cons
       substeps_(substeps_in(2 * plan_.step, suspension(scene, packing, greatest_speed(plan_)))),
       spheres_(with_step(suspension(scene, packing, greatest_speed(plan_)), 2 * plan_.step / substeps_), timers_,
                nullptr, dem::FluidBy::caller, resolved_gap / plan_.scale),
-      flow_(setup_of(plan_), lattice::Spheres(spheres_at(spheres_.particles(), plan_.scale), setup_of(plan_).box)),
+      flow_(flow_setup(plan_, true),
+            lattice::Spheres(spheres_at(spheres_.particles(), plan_.scale), flow_setup(plan_, true).box)),
       sums_(scene.species.size()) {
   const double density = relevance::fluid_constants(scene.fluid).density;
   for (const core::Species& s : scene.species) {
@@ -157,7 +150,7 @@ void FreeBox<Real>::let_walls_follow() {
     }
   }
   flow_.forget_forces();
-  flow_.move_to(lattice::Spheres(spheres, setup_of(plan_).box), motion);
+  flow_.move_to(lattice::Spheres(spheres, flow_setup(plan_, true).box), motion);
 }
 
 template <class Real>
@@ -204,6 +197,8 @@ void FreeBox<Real>::sample() {
 template <class Real>
 BoxDrag FreeBox<Real>::means() const {
   BoxDrag drag;
+  const Momentum left = momentum();
+  drag.imbalance = std::abs(left.all) / left.of_spheres;
   const double speed = plan_.scale * plan_.step, push = sums_.push / sums_.steps;
   for (std::size_t j = 0; j < bodies_.size(); ++j) {
     const OfSpecies& of = sums_.of[j];
@@ -222,11 +217,7 @@ BoxDrag FreeBox<Real>::means() const {
 template <class Real>
 core::Checkpoint FreeBox<Real>::state() const {
   core::Checkpoint state = spheres_.checkpoint();
-  std::vector<double>& impulses = state.arrays["impulses"];
-  for (const lattice::Impulse& impulse : flow_.impulses()) {
-    impulses.insert(impulses.end(), impulse.force.begin(), impulse.force.end());
-    impulses.insert(impulses.end(), impulse.torque.begin(), impulse.torque.end());
-  }
+  keep_impulses(flow_.impulses(), state);
   std::vector<double>& sums = state.arrays["sums"];
   sums = {sums_.samples, sums_.steps, sums_.push};
   for (const OfSpecies& of : sums_.of) sums.insert(sums.end(), {of.slip, of.force, of.along, of.across});
@@ -238,11 +229,8 @@ template <class Real>
 void FreeBox<Real>::restore(const core::Checkpoint& state) {
   spheres_.resume(state);
   let_walls_follow();
-  const std::vector<double>&given = state.array("impulses"), &sums = state.array("sums");
-  std::vector<lattice::Impulse> impulses(given.size() / 6);
-  for (std::size_t n = 0; n < given.size(); ++n)
-    (n % 6 < 3 ? impulses[n / 6].force[n % 3] : impulses[n / 6].torque[n % 3]) = given[n];
-  flow_.restore_impulses(impulses);
+  const std::vector<double>& sums = state.array("sums");
+  flow_.restore_impulses(kept_impulses(state));
   sums_.samples = sums.at(0);
   sums_.steps = sums.at(1);
   sums_.push = sums.at(2);
@@ -259,48 +247,7 @@ template <class Real>
 BoxDrag run(const core::Scene& scene, const ResolvePoint& point, const SpherePacking& packing,
             const StillWanted& wanted, const KeptBox* kept) {
   FreeBox<Real> box(scene, point, packing);
-  std::int64_t done = 0;
-  double before = 0;  // s on the clock, in earlier runs
-  if (const auto state = kept != nullptr ? kept->read() : std::nullopt) {
-    core::name_checkpoint(kept->path, [&] {
-      box.restore(*state);
-      kept->restore(box.flow(), *state);
-      done = state->count("box_steps");
-      before = state->time("seconds");
-    });
-  }
-  const auto begin = std::chrono::steady_clock::now();
-  const auto seconds = [&] {
-    return before + std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  };
-  double last_kept = before;
-  const std::int64_t steps = box.plan().steps, window = 2 * std::llround(box.plan().window / 2);
-  for (std::int64_t next = done + window; done < steps; next += window) {
-    for (; done < std::min(next, steps); done += 2) {
-      if (done / 2 == steps / 6) box.forget();
-      box.step();
-      if (done % sampled == 0) box.sample();
-    }
-    box.begin_window();
-    const bool stopped = !wanted(double(done), 0);
-    if (kept != nullptr && (stopped || seconds() - last_kept > kept->every)) {
-      last_kept = seconds();
-      core::Checkpoint state = box.state();
-      state.integers["box_steps"] = done;
-      state.numbers["seconds"] = last_kept;
-      kept->write(box.flow(), std::move(state));
-    }
-    if (stopped) throw core::Stopped("stopped by the user");
-  }
-  if (kept != nullptr) kept->remove();
-  BoxDrag drag = box.means();
-  const auto momentum = box.momentum();
-  drag.imbalance = std::abs(momentum.all) / momentum.of_spheres;
-  drag.seconds = seconds();
-  drag.steps = double(steps);
-  drag.sites = std::pow(box.plan().edge, 3);
-  drag.cells = least_diameter(scene) * box.plan().scale;
-  return drag;
+  return run_timed(box, scene, wanted, kept);
 }
 
 }  // namespace

@@ -57,6 +57,22 @@ void KeptBox::remove() const {
   std::filesystem::remove(core::previous_checkpoint(path), none);
 }
 
+void keep_impulses(const std::vector<lattice::Impulse>& impulses, core::Checkpoint& state) {
+  std::vector<double>& kept = state.arrays["impulses"];
+  for (const lattice::Impulse& impulse : impulses) {
+    kept.insert(kept.end(), impulse.force.begin(), impulse.force.end());
+    kept.insert(kept.end(), impulse.torque.begin(), impulse.torque.end());
+  }
+}
+
+std::vector<lattice::Impulse> kept_impulses(const core::Checkpoint& state) {
+  const std::vector<double>& kept = state.array("impulses");
+  std::vector<lattice::Impulse> impulses(kept.size() / 6);
+  for (std::size_t n = 0; n < 6 * impulses.size(); ++n)
+    (n % 6 < 3 ? impulses[n / 6].force[n % 3] : impulses[n / 6].torque[n % 3]) = kept[n];
+  return impulses;
+}
+
 template void KeptBox::write<float>(const lattice::Flow<float>&, core::Checkpoint) const;
 template void KeptBox::write<double>(const lattice::Flow<double>&, core::Checkpoint) const;
 template void KeptBox::restore<float>(lattice::Flow<float>&, core::Checkpoint) const;

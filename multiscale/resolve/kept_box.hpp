@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "core/output/checkpoint.hpp"
 #include "multiscale/resolve/lattice/flow.hpp"
@@ -29,5 +30,9 @@ struct KeptBox {
   /// Removes the file and the previous one.
   void remove() const;
 };
+
+/// Impulses on obstacles, as restore_impulses() takes them.
+void keep_impulses(const std::vector<lattice::Impulse>& impulses, core::Checkpoint& state);
+[[nodiscard]] std::vector<lattice::Impulse> kept_impulses(const core::Checkpoint& state);
 
 }  // namespace polybed::multiscale

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <numeric>
+#include <utility>
 #include <vector>
 
 #include "closures/mixture.hpp"
@@ -27,11 +27,12 @@ constexpr double stokes_viscosity = 0.5, stokes_speed = 1e-3;
 constexpr double usual_stokes = 10, usual_inertia = 20;
 /// The limit at a Reynolds number above 0.
 constexpr double most_viscosity = 1.0 / 6;
-/// Box lengths that the fastest species falls while free spheres are simulated, hindered as voidage^3: the exponent of
-/// Richardson and Zaki is 2.4 to 4.65.
-constexpr double crossings = 10, hindrance = 3;
-/// Steps of free spheres between two resets of the mean density, at which a run can stop.
-constexpr double free_window = 200;
+/// Box lengths that the fluid, or the fastest species, moves past the others while spheres that travel are simulated.
+constexpr double crossings = 10;
+/// The fall of free spheres is hindered as voidage^3: the exponent of Richardson and Zaki is 2.4 to 4.65.
+constexpr double hindrance = 3;
+/// Steps of spheres that travel between two resets of the mean density, at which a run can stop.
+constexpr double travel_window = 200;
 /// With fewer there is no sample after the first third.
 constexpr std::int64_t least_steps = 100;
 
@@ -57,11 +58,33 @@ Fall fall_of(const core::Scene& scene) {
 
 }  // namespace
 
-std::vector<int> passed(const core::Scene& scene) {
-  if (scene.resolve.motion != core::SphereMotion::moving) return {-1};
-  std::vector<int> species(scene.species.size());
-  std::iota(species.begin(), species.end(), 0);
-  return species;
+std::vector<std::vector<int>> passed(const core::Scene& scene, double reynolds) {
+  if (scene.resolve.motion != core::SphereMotion::moving) return {{}};
+  std::vector<std::vector<int>> sets;
+  for (std::size_t set = 1; set < std::size_t(1) << scene.species.size(); ++set) {
+    std::vector<int> species;
+    for (std::size_t j = 0; j < scene.species.size(); ++j)
+      if ((set >> j & 1) != 0) species.push_back(int(j));
+    if (reynolds > 0 || species.size() == 1) sets.push_back(std::move(species));
+  }
+  return sets;
+}
+
+bool is_passed(const ResolvePoint& point, std::size_t species) {
+  return point.past.empty() || std::find(point.past.begin(), point.past.end(), int(species)) != point.past.end();
+}
+
+double factor_of(const std::vector<int>& past, int species, const core::Scene& scene, double reynolds) {
+  const bool among = std::find(past.begin(), past.end(), species) != past.end();
+  if (reynolds == 0) return among ? 1 : 0;
+  const double all = double(scene.species.size()), size = double(past.size());
+  return among ? std::tgamma(size) * std::tgamma(all - size + 1) / std::tgamma(all + 1)
+               : -std::tgamma(size + 1) * std::tgamma(all - size) / std::tgamma(all + 1);
+}
+
+bool places_move(const core::Scene& scene, const ResolvePoint& point) {
+  return scene.resolve.motion == core::SphereMotion::moving && point.reynolds > 0 && !point.past.empty() &&
+         point.past.size() < scene.species.size();
 }
 
 double cells_of(const core::Resolve& resolve, int grid) { return resolve.cells_per_diameter / std::pow(1.5, grid); }
@@ -114,12 +137,16 @@ BoxPlan plan_of(const core::Scene& scene, const ResolvePoint& point) {
   if (point.reynolds > 0)
     plan.window = std::max(100.0, std::min(plan.window, 2 * plan.sauter * point.voidage / plan.units.speed));
   if (free) {
-    plan.window = free_window;
+    plan.window = travel_window;
     const Fall fall = fall_of(scene);
     plan.step = plan.units.speed / plan.scale / fall.speed;
     const double until =
         scene.resolve.until.value_or(crossings * length / (fall.speed * std::pow(point.voidage, hindrance)));
     plan.steps = std::max<std::int64_t>(2 * std::llround(until / plan.step / 2), least_steps);
+  }
+  if (places_move(scene, point)) {
+    plan.window = travel_window;
+    plan.steps = 2 * std::llround(crossings * plan.edge * point.voidage / plan.units.speed / 2);
   }
   return plan;
 }
@@ -132,8 +159,8 @@ BoxNeed box_need(const core::Scene& scene, const ResolvePoint& point) {
   const double real = scene.resolve.precision == core::Precision::one ? sizeof(float) : sizeof(double);
   BoxNeed need;
   need.sites = std::pow(box.edge, 3);
-  const bool free = scene.resolve.motion == core::SphereMotion::free;
-  need.steps = free ? double(box.steps) : std::ceil((point.reynolds > 0 ? usual_inertia : usual_stokes) * box.window);
+  need.steps =
+      box.steps > 0 ? double(box.steps) : std::ceil((point.reynolds > 0 ? usual_inertia : usual_stokes) * box.window);
   const double links = links_of_area * 6 * (1 - point.voidage) / box.sauter * need.sites;
   need.bytes = std::pow(box.edge + 2, 3) * (lattice::directions * real + site_bytes) +
                links * (link_bytes + (scene.resolve.motion == core::SphereMotion::held ? 0 : moving_bytes));

@@ -11,12 +11,23 @@ namespace polybed::multiscale {
 /// A point of the data, and one box of it.
 struct ResolvePoint {
   double voidage = 0, reynolds = 0;
-  int packing = 0, grid = 0;  ///< from 0; grid 0 is the finest
-  int past = -1;              ///< the species that the fluid and all others pass; -1: none
+  int packing = 0, grid = 0;   ///< from 0; grid 0 is the finest
+  std::vector<int> past = {};  ///< species at rest that the fluid and all others pass; held spheres: empty
 };
 
-/// The passed species, each in a separate box; -1 without.
-[[nodiscard]] std::vector<int> passed(const core::Scene& scene);
+/// Boxes for one packing, by the species that are passed: for held and free spheres one without. Moving spheres: each
+/// species alone in Stokes flow, otherwise all sets of species, the last of which is the held box.
+[[nodiscard]] std::vector<std::vector<int>> passed(const core::Scene& scene, double reynolds);
+[[nodiscard]] bool is_passed(const ResolvePoint& point, std::size_t species);
+
+/// Factor of a box in the force by the motion of a species k. In Stokes flow that force is the box past k. Otherwise it
+/// is the mean, over all orders in which species stop one after the other, of the change when k stops (Shapley, in:
+/// Contributions to the Theory of Games II, 1953): the parts of all species add up to the held drag, and a force that
+/// is linear and quadratic in velocities is split as by its derivative along the way from rest.
+[[nodiscard]] double factor_of(const std::vector<int>& past, int species, const core::Scene& scene, double reynolds);
+
+/// Whether species move past each other at new places all the time.
+[[nodiscard]] bool places_move(const core::Scene& scene, const ResolvePoint& point);
 
 /// Gap in cells above which the flow is resolved (Nguyen and Ladd, Phys. Rev. E 66 (2002) 046708): below it the missing
 /// part is the film's, within 8 % in docs/record/resolved-flow.md.
@@ -52,9 +63,9 @@ struct BoxPlan {
   double scale = 0;  ///< cells per m
   double sauter = 0;
   Units units;
-  double window = 0;       ///< memory time of a pore; for free spheres, time between two checks
+  double window = 0;       ///< memory time of a pore; if spheres travel, time between two checks
   double step = 0;         ///< s, for free spheres
-  std::int64_t steps = 0;  ///< length of a run with free spheres
+  std::int64_t steps = 0;  ///< length of a run whose spheres travel; 0: until the flow is steady
 };
 [[nodiscard]] BoxPlan plan_of(const core::Scene& scene, const ResolvePoint& point);
 

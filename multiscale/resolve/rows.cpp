@@ -31,11 +31,23 @@ std::vector<std::vector<double> BoxDrag::*> columns_of(SphereMotion motion) {
   return {&BoxDrag::net, &BoxDrag::pure, &BoxDrag::slip, &BoxDrag::along, &BoxDrag::across};
 }
 
-/// Sum over the passed species.
+/// Of held or free spheres.
 RowValue value_of(const RowBoxes& boxes, std::vector<double> BoxDrag::*column, std::size_t species) {
+  return row_value(boxes, [&](const std::vector<BoxDrag>& parts) { return (parts[0].*column)[species]; });
+}
+
+/// Of moving spheres, on species j: the part by the motion of species k, or the sum over all of them if k is negative.
+RowValue moving_value(const core::Scene& scene, double reynolds, const RowBoxes& boxes,
+                      std::vector<double> BoxDrag::*column, std::size_t j, int k = -1) {
+  const std::vector<std::vector<int>> sets = passed(scene, reynolds);
   return row_value(boxes, [&](const std::vector<BoxDrag>& parts) {
     double sum = 0;
-    for (const BoxDrag& part : parts) sum += (part.*column)[species];
+    for (std::size_t n = 0; n < sets.size(); ++n) {
+      double factor = 0;
+      for (int by = 0; by < int(scene.species.size()); ++by)
+        if (k < 0 || by == k) factor += factor_of(sets[n], by, scene, reynolds);
+      sum += factor * (parts[n].*column)[j];
+    }
     return sum;
   });
 }
@@ -117,7 +129,10 @@ std::string row_text(const core::Scene& scene, double voidage, double reynolds, 
   const std::vector<double> share = shares_of(scene, sphere_numbers(scene));
   const std::size_t species = share.size();
   const bool free = scene.resolve.motion == SphereMotion::free;
-  const auto value = [&](std::vector<double> BoxDrag::*column, std::size_t j) { return value_of(boxes, column, j); };
+  const bool moving = scene.resolve.motion == SphereMotion::moving;
+  const auto value = [&](std::vector<double> BoxDrag::*column, std::size_t j) {
+    return moving ? moving_value(scene, reynolds, boxes, column, j) : value_of(boxes, column, j);
+  };
   const auto main = free ? &BoxDrag::slip : &BoxDrag::net;
   std::string text = fmt::format("{:g},{:.6g}", voidage, free ? reynolds_of_slip(scene, share, boxes) : reynolds);
   for (std::size_t j = 0; j < species; ++j)
@@ -128,10 +143,10 @@ std::string row_text(const core::Scene& scene, double voidage, double reynolds, 
     if (free)
       text += fmt::format(",{},{}", cell(value(&BoxDrag::along, j).mean), cell(value(&BoxDrag::across, j).mean));
   }
-  if (scene.resolve.motion == SphereMotion::moving)
+  if (moving)
     for (std::size_t j = 0; j < species; ++j)
       for (std::size_t k = 0; k < species; ++k) {
-        const RowValue v = row_value(boxes, [&](const std::vector<BoxDrag>& parts) { return parts[k].pure[j]; });
+        const RowValue v = moving_value(scene, reynolds, boxes, &BoxDrag::pure, j, int(k));
         text += fmt::format(",{},{}", cell(v.mean), cell(v.error));
       }
   double imbalance = 0;
@@ -183,7 +198,8 @@ std::string box_name(const core::Scene& scene, const ResolvePoint& point) {
                                  int(scene.resolve.precision));
   for (std::size_t j = 0; j < scene.species.size(); ++j)
     text += fmt::format(",{},{}", scene.bed.volume_share[j], scene.species[j].diameter);
-  if (point.past >= 0) text += fmt::format(",past {},roughness {}", point.past, scene.material.roughness);
+  if (!point.past.empty())
+    text += fmt::format(",past {},roughness {}", fmt::join(point.past, " "), scene.material.roughness);
   if (scene.resolve.motion != SphereMotion::held) text += fmt::format(",gap {}", resolved_gap);
   if (scene.resolve.motion == SphereMotion::free) text += free_text(scene);
   return core::text_hash(text);

@@ -17,7 +17,7 @@ struct RowValue {
   double grid = 0;   ///< minus the next coarser grid's; NaN for one grid
 };
 
-/// Boxes of a row: [packing][grid][passed species, or one].
+/// Boxes of a row: [packing][grid][as passed()].
 using RowBoxes = std::vector<std::vector<std::vector<BoxDrag>>>;
 
 /// \param value  for the boxes of one packing on one grid

@@ -22,8 +22,8 @@ using core::Broken;
 constexpr double least_pore = 3;
 /// Density of free spheres over the fluid's: forces of the fluid act on them one step late.
 constexpr double least_ratio = 1.1;
-/// Width of a box of free spheres over the largest diameter: no sphere or film touches another and its image. The range
-/// of a film is the unresolved gap on the coarsest grid.
+/// Width of a box of spheres that travel over the largest diameter: no sphere or film touches another and its image.
+/// The range of a film is the unresolved gap on the coarsest grid.
 double least_width(const core::Scene& scene) {
   const double cells =
       cells_of(scene.resolve, scene.resolve.grids - 1) * core::largest_diameter(scene) / least_diameter(scene);
@@ -89,12 +89,16 @@ Broken no_spheres(const core::Scene& scene) {
 
 bool are_free(const core::Scene& scene) { return scene.resolve.motion == core::SphereMotion::free; }
 
+/// Whether spheres meet others at places that are not those of their packing.
+bool travel(const core::Scene& scene) {
+  const std::vector<double>& re = scene.resolve.reynolds;
+  return are_free(scene) || (scene.resolve.motion == core::SphereMotion::moving && scene.species.size() > 1 &&
+                             std::any_of(re.begin(), re.end(), [](double one) { return one > 0; }));
+}
+
 Broken reynolds_of_no_use(const core::Scene& scene) {
-  const core::SphereMotion motion = scene.resolve.motion;
-  if (motion == core::SphereMotion::held || scene.resolve.reynolds == core::Resolve().reynolds) return {};
-  return Broken({std::string(core::name_of(motion)),
-                 motion == core::SphereMotion::free ? "the weight of the spheres decides on the Reynolds number"
-                                                    : "spheres that pass each other keep their places in Stokes flow"});
+  if (!are_free(scene) || scene.resolve.reynolds == core::Resolve().reynolds) return {};
+  return Broken(Broken::Words{});
 }
 
 Broken end_of_no_use(const core::Scene& scene) {
@@ -140,7 +144,7 @@ Broken spheres_too_light(const core::Scene& scene) {
 
 Broken box_too_narrow(const core::Scene& scene) {
   Broken broken;
-  if (!are_free(scene) || !asks(scene) || species_without_spheres(scene)) return broken;
+  if (!travel(scene) || !asks(scene) || species_without_spheres(scene)) return broken;
   const double needed = least_width(scene);
   for (const double eps : scene.resolve.voidage) {
     const double width = box_length(scene, eps) / core::largest_diameter(scene);
@@ -192,7 +196,8 @@ std::vector<core::Rule> resolve_rules() {
        "species.sphericity = {} of '{}': polybed resolve finds the drag on spheres; leave it out, or [resolve]",
        no_spheres},
       {{"resolve.motion", "resolve.reynolds"},
-       "resolve.motion = \"{}\": {}; leave out resolve.reynolds",
+       "resolve.motion = \"free\": the weight of the spheres decides on the Reynolds number; leave out "
+       "resolve.reynolds",
        reynolds_of_no_use},
       {{"resolve.until", "resolve.motion"},
        "resolve.until is the time of free spheres, and resolve.motion = \"{}\": leave out resolve.until",
@@ -211,9 +216,10 @@ std::vector<core::Rule> resolve_rules() {
        "resolve.cells_per_diameter = {}: free spheres at a voidage of {} would fall at a viscosity of {} in cells and "
        "steps, stable from {}; take {} or more, or fewer resolve.grids",
        fall_beyond_grid},
-      {{"resolve.spheres", "resolve.motion", "resolve.voidage", "species.diameter", "bed.volume_share"},
-       "resolve.spheres = {}: at a voidage of {} the box is {} of the largest diameters wide; free spheres need {}, so "
-       "that none touches another and its image: take {} or more",
+      {{"resolve.spheres", "resolve.motion", "resolve.reynolds", "resolve.voidage", "species.diameter",
+        "bed.volume_share"},
+       "resolve.spheres = {}: at a voidage of {} the box is {} of the largest diameters wide; spheres that travel need "
+       "{}, so that none touches another and its image: take {} or more",
        box_too_narrow}};
 }
 

@@ -10,11 +10,12 @@ RESOLVED = {
     "resolve.cells_per_diameter = {} or more, or fewer resolve.grids": ["resolve.voidage=[0.6]", "resolve.reynolds=[300]"],
     "resolve.cells_per_diameter = {}: the pores are {} cells wide on the coarsest grid at a voidage of {}, they need {}; take {} or more, "
     "or fewer resolve.grids": ["resolve.voidage=[0.35]", "resolve.cells_per_diameter=6"],
-    "resolve.spheres = {}: at a voidage of {} the box is {} of the largest diameters wide; free spheres need {}, so that none touches another "
-    "and its image: take {} or more": [*FREE, "resolve.spheres=2"],
+    "resolve.spheres = {}: at a voidage of {} the box is {} of the largest diameters wide; spheres that travel need {}, so that none "
+    "touches another and its image: take {} or more": [*FREE, "resolve.spheres=2"],
     "species.sphericity = {} of '{}': polybed resolve finds the drag on spheres; leave it out, or [resolve]": [
         "resolve.voidage=[0.6]", "species.fine.sphericity=0.9"],
-    'resolve.motion = "{}": {}; leave out resolve.reynolds': ["resolve.motion=moving", "resolve.reynolds=[5]"],
+    'resolve.motion = "free": the weight of the spheres decides on the Reynolds number; leave out resolve.reynolds': [
+        *FREE, "resolve.reynolds=[5]"],
     'resolve.until is the time of free spheres, and resolve.motion = "{}": leave out resolve.until': ["resolve.until=1"],
     'effects.lubrication = "{}": resolve.motion = "free" resolves the flow between spheres; use "film" or "none"': [
         *FREE, "effects.lubrication=wet_restitution"],

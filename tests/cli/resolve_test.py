@@ -181,6 +181,19 @@ class Resolve(Scratch):
         self.assertEqual(self.rows(*words, "--resume"), [row])
         self.assertEqual(self.on_ranks(2, "-o", self.folder / "on-2", *words), (self.out / "rows.csv").read_text())
 
+    def test_moving_spheres_travel_above_stokes_flow(self):
+        words = [word for key in ("grids=1", "packings=1", "reynolds=[0,5]", "voidage=[0.8]", "cells_per_diameter=6") for word in ("--set", f"resolve.{key}")]
+        held = self.rows(*words)[1]
+        self.out = self.folder / "moving"
+        words += ["--set", "resolve.motion=moving"]
+        row = self.rows(*words)[1]
+        self.assertEqual(len((self.out / "boxes.csv").read_text().splitlines()), 1 + 2 + 3, "two species alone; then also both")
+        for j in (1, 2):
+            self.assertEqual(row[f"f_{j}"], held[f"f_{j}"])  # one box with the same bits
+            self.assertAlmostEqual(row[f"f_{j}_1"] + row[f"f_{j}_2"], row[f"f_{j}"], delta=1e-4 * row[f"f_{j}"])
+            self.assertGreater(row[f"f_{j}_{j}"], row[f"f_{j}"])  # the others drag it along
+        self.assertEqual(self.on_ranks(2, "-o", self.folder / "on-2", *words), (self.out / "rows.csv").read_text())
+
     def test_free_spheres_go_on_with_the_same_bits_on_any_ranks(self):
         words = [word for key in ("motion=free", "grids=1", "reynolds=[0]", "voidage=[0.8]", "spheres=30", "cells_per_diameter=6", 'until="0.2 s"')
                  for word in ("--set", f"resolve.{key}")] + ["--set", "fluid.viscosity=0.01"]

@@ -3,7 +3,7 @@
 
 one_size: hindered settling of beads of one size beside Richardson and Zaki's law (1954), resolved settling of Yin and Koch (2007) and a law of
 held spheres. box: more and more beads in a box, with the limit of a large one. grid, viscous: finer cells, a more viscous liquid. relative: forces
-by relative motion on finer and finer grids. system_b: fine and coarse of cases/matsuura-akehata, free and held; the held species at the slip at
+by relative motion on finer and finer grids. inertia: the same above Stokes flow. system_b: fine and coarse of cases/matsuura-akehata, free and held; the held species at the slip at
 which its drag bears its own weight; then the same boxes over half of the time, and the first of them on a finer grid. mixtures: two sizes of one
 density. Prints the rows of the record; s is the time on the clock of all boxes of a row. Boxes that are finished are kept: the same command goes
 on, more --boxes add to them.
@@ -162,20 +162,27 @@ def grid(program, folder):
             print(f"| {voidage} | {cells} | {of_law(row, richardson_zaki(voidage))} |")
 
 
-def viscous(program, folder):
+def viscous(program, folder, voidages=(0.8, 0.65), boxes=2, spheres=40, until=None):
     """At a Reynolds number alone of 0.7, where sedimentation of Stokes flow is known."""
     viscosity = 30e-3
     stokes, _, re = alone(viscosity)
-    print(f"Re alone {re:.2f}\n| voidage | free over Stokes' velocity | (1 - phi)^4.48 | (1 - phi)^5.6 |\n| --- | --- | --- | --- |")
-    for voidage in (0.8, 0.65):
-        row = settled(program, folder, voidage, 40, 2, viscosity=viscosity)
-        print(f"| {voidage} | {of_law(row, stokes)} | {voidage**4.48:.3f} | {voidage**5.6:.3f} |")
+    print(f"Re alone {re:.2f}\n| voidage | boxes | free over Stokes' velocity | Richardson and Zaki | (1 - phi)^4.48 | (1 - phi)^5.6 | s |\n" + "| --- " * 7 + "|")
+    for voidage in voidages:
+        row = settled(program, folder, voidage, spheres, boxes, *([f'until="{until} s"'] if until else []), viscosity=viscosity)
+        law = richardson_zaki(voidage, viscosity) / stokes
+        print(f"| {voidage} | {boxes} of {spheres} | {of_law(row, stokes)} | {law:.3f} | {voidage**4.48:.3f} | {voidage**5.6:.3f} | {row['seconds']:.0f} |")
 
 
-def relative(program, folder):
+def two_sizes(folder):
+    """A case of 1.5 and 3 mm in equal volumes."""
     folder.mkdir(parents=True, exist_ok=True)
     case = folder / "two.toml"
     case.write_text(CASE.format(**LIQUID).replace("[bed]\nvolume_share = [1.0]", TWO.format(coarse=3e-3, fine=0.5, share=0.5)))
+    return case
+
+
+def relative(program, folder):
+    case = two_sizes(folder)
     print("| voidage | cells per fine diameter | f_11 | f_12 | f_21 | f_22 | f_11 + f_12 |\n" + "| --- " * 7 + "|")
     for voidage, grids in ((0.6, (6, 9, 12, 18)), (0.87, (6, 9))):
         for cells in grids:
@@ -183,6 +190,21 @@ def relative(program, folder):
                          "grids=1", "packings=1", "spheres=18")
             f = [row[f"f_{pair}"] for pair in ("1_1", "1_2", "2_1", "2_2")]
             print(f"| {voidage} | {cells} | " + " | ".join(f"{value:.3f}" for value in f) + f" | {f[0] + f[1]:.3f} |")
+
+
+def inertia(program, folder, spheres=18):
+    """The last columns: forces past one species after the other, added, over the drag on held spheres."""
+    case = two_sizes(folder)
+    print("| Re | cells per fine diameter | boxes | f_11 | f_12 | f_21 | f_22 | added, fine | added, coarse | s |\n" + "| --- " * 10 + "|")
+    for reynolds, cells, boxes in ((0, 6, 4), (1, 6, 4), (5, 6, 4), (20, 6, 4), (5, 9, 2)):
+        out = folder / f"{reynolds}-{cells}-{spheres}"
+        [row] = rows(program, case, out, "motion=moving", "voidage=[0.8]", f"reynolds=[{reynolds}]", f"cells_per_diameter={cells}", "grids=1",
+                     f"packings={boxes}", f"spheres={spheres}")
+        lines = [[float(cell) for cell in line.split(",")[7:11]] for line in (out / "boxes.csv").read_text().splitlines()[1:]]
+        alone = sum(np.array(line[1::2]) for n, line in enumerate(lines) if reynolds == 0 or n % 3 < 2) / boxes
+        forces = [f"{row[f'f_{pair}']:.2f} ± {row.get(f'f_{pair}_se', np.nan):.2f}" for pair in ("1_1", "1_2", "2_1", "2_2")]
+        added = [f"{alone[j] / row[f'f_{j + 1}']:.3f}" for j in range(2)]
+        print("| " + " | ".join([str(reynolds), str(cells), str(boxes), *forces, *added, f"{row['seconds']:.0f}"]) + " |", flush=True)
 
 
 def slips(row):
@@ -238,7 +260,7 @@ def mixtures(program, folder, voidages=(0.9, 0.8, 0.65), boxes=4):
                 two_line(f"{ratio} | {share} | {voidage}", slips(row), row["seconds"])
 
 
-TABLES = {table.__name__: table for table in (one_size, box, grid, viscous, relative, system_b, mixtures)}
+TABLES = {table.__name__: table for table in (one_size, box, grid, viscous, relative, inertia, system_b, mixtures)}
 
 
 def main():
@@ -246,10 +268,10 @@ def main():
     parser.add_argument("program", type=Path)
     parser.add_argument("folder", type=Path)
     parser.add_argument("what", nargs="?", choices=TABLES)
-    parser.add_argument("--voidage", type=float, nargs="+", help="of one_size, system_b and mixtures")
+    parser.add_argument("--voidage", type=float, nargs="+", help="of one_size, viscous, system_b and mixtures")
     parser.add_argument("--boxes", type=int, help="of each of their rows")
-    parser.add_argument("--spheres", type=int, help="in a box of system_b")
-    parser.add_argument("--until", type=float, help="simulated time of system_b, s")
+    parser.add_argument("--spheres", type=int, help="in a box of viscous, inertia and system_b")
+    parser.add_argument("--until", type=float, help="simulated time of viscous and system_b, s")
     given = parser.parse_args()
     asked = {"voidages": given.voidage, "boxes": given.boxes, "spheres": given.spheres, "until": given.until}
     asked = {name: value for name, value in asked.items() if value}

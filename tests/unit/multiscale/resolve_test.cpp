@@ -105,9 +105,10 @@ TEST(Resolve, RelativeMotionSumsToTheHeldDragAndIsSymmetric) {
   const BoxDrag held = box_drag(scene, {0.6, 0, 0, 0}, packing, go_on);
   scene.resolve.motion = core::SphereMotion::moving;
   scene.resolve.voidage = {0.6};
-  EXPECT_THAT(passed(scene), testing::ElementsAre(0, 1));
+  EXPECT_THAT(passed(scene, 0), testing::ElementsAre(std::vector{0}, std::vector{1}));
   RowBoxes boxes{{{}}};
-  for (const int past : passed(scene)) boxes[0][0].push_back(box_drag(scene, {0.6, 0, 0, 0, past}, packing, go_on));
+  for (const auto& past : passed(scene, 0))
+    boxes[0][0].push_back(box_drag(scene, {0.6, 0, 0, 0, past}, packing, go_on));
   const std::vector<BoxDrag>& f = boxes[0][0];
   for (std::size_t j = 0; j < 2; ++j) {
     EXPECT_NEAR(f[0].pure[j] + f[1].pure[j], held.pure[j], 1e-3 * held.pure[j]);
@@ -136,7 +137,7 @@ TEST(Resolve, FilmsGiveBothOfAPairWhatTheGridLacks) {
   packing.centre.push_back({0.2e-3 - 0.6 * apart + length, 1e-3 + 0.8 * apart, 1e-3});
   const auto with_roughness = [&](double roughness) {
     scene.material.roughness = roughness;
-    return box_drag(scene, {0.9, 0, 0, 0, 1}, packing, [](double, double) { return true; });
+    return box_drag(scene, {0.9, 0, 0, 0, {1}}, packing, [](double, double) { return true; });
   };
   const BoxDrag with = with_roughness(1e-9), without = with_roughness(0.2e-3);
   const double fine = with.cells / 2, reduced = fine * 2 / 3, gap = 0.1 * with.cells / 6;
