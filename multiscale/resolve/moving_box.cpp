@@ -34,6 +34,7 @@ MovingBox<Real>::MovingBox(const core::Scene& scene, const ResolvePoint& point, 
       spheres_(spheres_of(scene, packing, plan_.scale), species_,
                velocities(scene, point, common, common + plan_.units.speed / point.voidage), plan_.edge),
       flow_(flow_setup(plan_, true), lattice::Spheres(spheres_.spheres(), flow_setup(plan_, true).box)),
+      still_(plan_.still),
       sums_(scene.species.size()) {
   fluid_velocity_ = common + plan_.units.speed / point.voidage;
   roughness_ = scene.material.roughness * plan_.scale;
@@ -64,6 +65,10 @@ void MovingBox<Real>::step() {
   sums_.push += 2 * push * fluid;
   sums_.gradient += 2 * push;
   sums_.slip += 2 * (momentum_ + (0.5 * push - common_) * fluid) / std::pow(plan_.edge, 3);
+  if (still_ > 0) {
+    still_ -= 2;
+    return flow_.forget_forces();
+  }
   spheres_.move();
   let_walls_follow();
 }
@@ -111,6 +116,7 @@ core::Checkpoint MovingBox<Real>::state() const {
     for (const double x : sphere.centre) state.arrays["centres"].push_back(x);
   keep_impulses(flow_.impulses(), state);
   std::vector<double>& sums = state.arrays["sums"];
+  state.integers["still"] = still_;
   sums = {momentum_, drag_, sums_.steps, sums_.push, sums_.gradient, sums_.drag, sums_.slip};
   sums.insert(sums.end(), sums_.force.begin(), sums_.force.end());
   return state;
@@ -126,6 +132,7 @@ void MovingBox<Real>::restore(const core::Checkpoint& state) {
   let_walls_follow();
   flow_.restore_impulses(kept_impulses(state));
   const std::vector<double>& sums = state.array("sums");
+  still_ = state.count("still");
   momentum_ = sums.at(0);
   drag_ = sums.at(1);
   sums_.steps = sums.at(2);

@@ -16,7 +16,7 @@ class MovingBox {
   /// \param common  velocity that fluid and all spheres have in addition, cells a step
   MovingBox(const core::Scene& scene, const ResolvePoint& point, const SpherePacking& packing, double common = 0);
 
-  /// Two steps of the fluid, with the motion of the spheres.
+  /// Two steps of the fluid. Spheres stay at first, until the flow has developed, with moving walls; then they travel.
   void step();
   /// Resets the mean density and measures the momentum, as a resumed box does: both then have the same bits.
   void begin_window();
@@ -51,11 +51,12 @@ class MovingBox {
   std::vector<double> radius_, count_;  ///< of each species
   GuidedSpheres spheres_;
   lattice::Flow<Real> flow_;
+  std::int64_t still_;              ///< steps left before the spheres travel
   double momentum_ = 0, drag_ = 0;  ///< as measured_momentum(); on all spheres, in the last two steps
   Sums sums_;
 };
 
-/// Means over the last two thirds of the steps. Throws as box_drag().
+/// Means over the last two thirds of the way. Throws as box_drag().
 [[nodiscard]] BoxDrag moving_box(const core::Scene& scene, const ResolvePoint& point, const SpherePacking& packing,
                                  const StillWanted& wanted, const KeptBox* kept);
 

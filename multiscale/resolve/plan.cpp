@@ -27,10 +27,14 @@ constexpr double stokes_viscosity = 0.5, stokes_speed = 1e-3;
 constexpr double usual_stokes = 10, usual_inertia = 20;
 /// The limit at a Reynolds number above 0.
 constexpr double most_viscosity = 1.0 / 6;
-/// Box lengths that the fluid, or the fastest species, moves past the others while spheres that travel are simulated.
-constexpr double crossings = 10;
-/// The fall of free spheres is hindered as voidage^3: the exponent of Richardson and Zaki is 2.4 to 4.65.
-constexpr double hindrance = 3;
+/// Box lengths that the fastest species falls while free spheres are simulated, hindered as voidage^3: the exponent of
+/// Richardson and Zaki is 2.4 to 4.65.
+constexpr double crossings = 10, hindrance = 3;
+/// Box lengths that species of given velocity travel. Beyond, spheres meet the images of those that they have met and
+/// pushed aside: contacts become rare, and each species has lanes of its own (record of resolved flow).
+constexpr double travelled = 2.0 / 3;
+/// Memory times of a pore before they start to travel.
+constexpr double still_windows = 4;
 /// Steps of spheres that travel between two resets of the mean density, at which a run can stop.
 constexpr double travel_window = 200;
 /// With fewer there is no sample after the first third.
@@ -143,10 +147,14 @@ BoxPlan plan_of(const core::Scene& scene, const ResolvePoint& point) {
     const double until =
         scene.resolve.until.value_or(crossings * length / (fall.speed * std::pow(point.voidage, hindrance)));
     plan.steps = std::max<std::int64_t>(2 * std::llround(until / plan.step / 2), least_steps);
+    plan.dropped = plan.steps / 6 * 2;
   }
   if (places_move(scene, point)) {
+    plan.still = 2 * std::llround(still_windows * plan.window / 2);
     plan.window = travel_window;
-    plan.steps = 2 * std::llround(crossings * plan.edge * point.voidage / plan.units.speed / 2);
+    const std::int64_t travel = 2 * std::llround(travelled * plan.edge * point.voidage / plan.units.speed / 2);
+    plan.steps = plan.still + travel;
+    plan.dropped = plan.still + travel / 6 * 2;
   }
   return plan;
 }

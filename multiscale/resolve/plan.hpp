@@ -63,9 +63,11 @@ struct BoxPlan {
   double scale = 0;  ///< cells per m
   double sauter = 0;
   Units units;
-  double window = 0;       ///< memory time of a pore; if spheres travel, time between two checks
-  double step = 0;         ///< s, for free spheres
-  std::int64_t steps = 0;  ///< length of a run whose spheres travel; 0: until the flow is steady
+  double window = 0;         ///< memory time of a pore; if spheres travel, time between two checks
+  double step = 0;           ///< s, for free spheres
+  std::int64_t steps = 0;    ///< length of a run whose spheres travel; 0: until the flow is steady
+  std::int64_t dropped = 0;  ///< of them, before the means
+  std::int64_t still = 0;    ///< of them, before moving spheres start to travel
 };
 [[nodiscard]] BoxPlan plan_of(const core::Scene& scene, const ResolvePoint& point);
 

@@ -1,4 +1,4 @@
-// A box of spheres that travel, run over its time: means after the first third.
+// A box of spheres that travel, run over its time.
 #pragma once
 
 #include <algorithm>
@@ -36,7 +36,7 @@ BoxDrag run_timed(Box& box, const core::Scene& scene, const StillWanted& wanted,
   const std::int64_t steps = box.plan().steps, window = 2 * std::llround(box.plan().window / 2);
   for (std::int64_t next = done + window; done < steps; next += window) {
     for (; done < std::min(next, steps); done += 2) {
-      if (done / 2 == steps / 6) box.forget();
+      if (done == box.plan().dropped) box.forget();
       box.step();
       if (done % sampled == 0) box.sample();
     }
