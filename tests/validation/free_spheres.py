@@ -196,7 +196,7 @@ def inertia(program, folder, spheres=18):
     """The last columns: forces past one species after the other, added, over the drag on held spheres."""
     case = two_sizes(folder)
     print("| Re | cells per fine diameter | boxes | f_11 | f_12 | f_21 | f_22 | added, fine | added, coarse | s |\n" + "| --- " * 10 + "|")
-    for reynolds, cells, boxes in ((0, 6, 4), (1, 6, 4), (5, 6, 4), (20, 6, 4), (5, 9, 2)):
+    for reynolds, cells, boxes in ((0, 6, 8), (1, 6, 8), (5, 6, 8), (20, 6, 8)):
         out = folder / f"{reynolds}-{cells}-{spheres}"
         [row] = rows(program, case, out, "motion=moving", "voidage=[0.8]", f"reynolds=[{reynolds}]", f"cells_per_diameter={cells}", "grids=1",
                      f"packings={boxes}", f"spheres={spheres}")
