@@ -17,9 +17,9 @@ namespace polybed::dem {
 namespace {
 
 /// Only where each particle meets the same walls wherever it goes, and images rest.
-std::optional<Company> company_of(const Box& box, const Materials& materials, double reach) {
+std::optional<Company> company_of(const Box& box, const Materials& materials, double reach, std::size_t particles) {
   if (!box.plates.empty() || !box.openings.empty() || box.shear_rate != 0) return {};
-  return Company(box, materials.greatest_diameter(), reach);
+  return Company(box, materials.greatest_diameter(), reach, particles);
 }
 
 const core::Scene& fitting(const core::Scene& scene) {
@@ -46,7 +46,7 @@ Model::Model(const core::Scene& scene, core::Timers& timers, std::shared_ptr<con
       torque_unit_(torque_unit(force_unit_, materials_)),
       held_(scene.bed.held),
       skin_(skin_of(scene, materials_)),
-      company_(company_of(box_, materials_, thickest_skin * skin_ + laws_.reach())),
+      company_(company_of(box_, materials_, thickest_skin * skin_ + laws_.reach(), start_.size())),
       verlet_(limits_.synchronised, limits_.dt, gravity_, force_unit_, torque_unit_, box_.shear_rate),
       search_(box_, materials_, skin_ + laws_.reach(), (company_ ? company_->far() : skin_) + laws_.reach()),
       pair_forces_(box_, materials_, laws_, force_unit_, torque_unit_, scene.dem.max_overlap),

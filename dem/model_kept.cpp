@@ -6,6 +6,7 @@
 #include "dem/kept_sums.hpp"
 #include "dem/model.hpp"
 #include "dem/parallel/ordered_rows.hpp"
+#include "dem/scene.hpp"
 #include "dem/step_limits.hpp"
 
 namespace polybed::dem {
@@ -78,6 +79,7 @@ void Model::restore(const core::Checkpoint& checkpoint, bool same_run) {
   place(state.particles, work_of(state, work_of_particle()));
   for (KeptPart* part : kept_) part->read({checkpoint, ranks_.get(), particles_, state.particles, same_run});
   if (coupling_ && feeding_) coupling_->see(feeding_->arrivals());
+  set_skin(skin_of(scene_, materials_));
   list_pairs({state.contacts, pairs_.memory_size});
 }
 

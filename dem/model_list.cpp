@@ -32,7 +32,7 @@ bool Model::list_goes_stale(double drift, double since) const {
 /// A thicker skin after a list of few steps, a thinner one after one of many: a list costs as much as several steps, a
 /// pair listed in vain costs in each of them.
 void Model::suit_skin() {
-  if (scene_.dem.skin || box_.shear_rate != 0) return;
+  if (!company_ || scene_.dem.skin) return;
   constexpr std::int64_t few = 20, many = 80;
   constexpr double change = 1.25;
   const std::int64_t lasted = steps_ - marked_at_;
@@ -121,7 +121,7 @@ void Model::list_pairs(KeptContacts kept) {
   memories.recall(walls_, particles_, true);
   verlet_.mark(particles_);
   if (company_) company_->mark(particles_);
-  free_ = 0.5 * skin_;
+  free_ = company_ ? std::min(0.5 * skin_, company_->far()) : 0.5 * skin_;
   marked_at_ = steps_;
   ahead_ = Ahead::clear;
   ++work_.rebuilds;

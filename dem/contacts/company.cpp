@@ -26,18 +26,29 @@ constexpr double nobody = -std::numeric_limits<double>::infinity();
 
 }  // namespace
 
-Company::Company(const Box& box, double diameter, double reach) : joined_(box.periodic), far_(0.5 * diameter) {
+Company::Company(const Box& box, double diameter, double reach, std::size_t particles)
+    : joined_(box.periodic), far_(0.5 * diameter) {
   const double block = diameter + reach + 2 * far_;
   for (std::size_t k = 0; k < 3; ++k) {
     count_[k] = std::max(1, int(std::min(std::floor(box.size[k] / block), 1e3)));
-    inverse_[k] = count_[k] / box.size[k];
   }
+  // Larger blocks are safe: a few small particles in a large box do not need many.
+  while (double(count_[0]) * count_[1] * count_[2] > 1e3 + double(particles)) {
+    int& most = *std::max_element(count_.begin(), count_.end());
+    most = (most + 1) / 2;
+  }
+  for (std::size_t k = 0; k < 3; ++k) inverse_[k] = count_[k] / box.size[k];
 }
 
-/// Particles beyond a face count to the outermost block: two that are further apart than blocks stay so.
+/// Particles beyond a face count to the outermost block, beyond joined ones to that of their image: two that are
+/// further apart than blocks stay so.
 std::int32_t Company::block_of(const Vector& x) const {
   std::array<int, 3> at{};
-  for (std::size_t k = 0; k < 3; ++k) at[k] = int(std::clamp(std::floor(x[k] * inverse_[k]), 0.0, count_[k] - 1.0));
+  for (std::size_t k = 0; k < 3; ++k) {
+    double block = std::floor(x[k] * inverse_[k]);
+    if (joined_[k]) block -= count_[k] * std::floor(block / count_[k]);
+    at[k] = int(std::clamp(block, 0.0, count_[k] - 1.0));
+  }
   return (at[2] * count_[1] + at[1]) * count_[0] + at[0];
 }
 

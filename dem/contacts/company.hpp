@@ -17,7 +17,8 @@ namespace polybed::dem {
 class Company {
  public:
   /// \param diameter  the greatest, m  \param reach  of the longest pair effect plus the skin, m
-  Company(const Box& box, double diameter, double reach);
+  /// \param particles  of all ranks: not many more blocks
+  Company(const Box& box, double diameter, double reach, std::size_t particles);
 
   /// Stores the places of the owned particles when their list is made.
   void mark(const Particles& particles);
@@ -27,7 +28,7 @@ class Company {
     double apart;  ///< upper bound of the approach of two particles that were less than far() from each other
     double most;   ///< greatest of a particle
   };
-  /// The same on any number of ranks, and collective. NaN if a displacement is.
+  /// The same on any number of ranks, and collective. Without ranks NaN if a displacement is.
   [[nodiscard]] Moved since(const Particles& particles, const core::Ranks* ranks) const;
   /// Displacement up to which only particles in adjacent blocks can meet, m.
   [[nodiscard]] double far() const { return far_; }

@@ -23,11 +23,16 @@ using closures::Vec3;
 
 constexpr int samples_before_warning = 3;
 
-/// The cell that contains a place, m, in a grid that owns its whole column; the nearest cell for a place outside.
+/// The cell that contains a place, m, in a grid that owns its whole column; for a place outside the nearest cell,
+/// beyond joined faces the image's.
 std::size_t cell_at(const core::Grid& column, const std::array<double, 3>& place) {
   std::array<int, 3> cell{0, 0, 0};
-  for (std::size_t a = 0; a < std::size_t(column.dimensions); ++a)
-    cell[a] = std::clamp(int(std::floor(place[a] / column.spacing[a])), 0, column.cells[a] - 1);
+  for (std::size_t a = 0; a < std::size_t(column.dimensions); ++a) {
+    const int n = column.cells[a];
+    cell[a] = int(std::floor(place[a] / column.spacing[a]));
+    if (column.periodic[a]) cell[a] += cell[a] < 0 ? n : cell[a] >= n ? -n : 0;
+    cell[a] = std::clamp(cell[a], 0, n - 1);
+  }
   while (column.layers && cell[1] > 0 && column.low(1, cell[1]) > place[1]) --cell[1];
   return std::size_t(column.index(cell[0], cell[1], cell[2]));
 }

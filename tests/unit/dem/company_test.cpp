@@ -25,7 +25,7 @@ Box ten_blocks(bool joined) {
 /// Bound after particles at x have moved along x and y.
 Company::Moved moved(bool joined, const std::vector<double>& x, const std::vector<std::array<double, 2>>& by) {
   const Box box = ten_blocks(joined);
-  Company company(box, 1, 0.1);
+  Company company(box, 1, 0.1, x.size());
   Particles particles;
   for (std::size_t i = 0; i < x.size(); ++i) {
     Particle p{};
