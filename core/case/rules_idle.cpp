@@ -138,7 +138,7 @@ std::vector<Rule> of_a_flow_rate() {
 
 std::vector<Rule> of_the_fluid() {
   return {
-      {{"inlet.superficial_velocity", "fluid.name", "column.closed", "dem.shear_rate"},
+      {{"inlet.superficial_velocity", "inlet.flow_rate", "fluid.name", "column.closed", "dem.shear_rate"},
        "inlet.superficial_velocity is missing (or give inlet.flow_rate, or set column.closed = true)",
        [](const Scene& scene) {
          const bool flows = scene.fluid.present() && scene.column.shear_rate == 0;

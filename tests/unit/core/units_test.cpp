@@ -40,6 +40,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Reading{"60 gal/min", 3.785411784e-3, dimension::volume_rate},
                     Reading{"12 cP", 12e-3, dimension::viscosity}, Reading{"1050 mbar", 1050e2, dimension::pressure},
                     Reading{"75 L/h", 75e-3 / 3600, dimension::volume_rate},
+                    Reading{"3.5 m3/d", 3.5 / 86400, dimension::volume_rate},
                     Reading{"5 gpm/ft2", 5 * (3.785411784e-3 / 60) / (0.3048 * 0.3048), dimension::velocity}));
 
 TEST(Units, WhatIsNoQuantityIsRefused) {
