@@ -92,12 +92,8 @@ double counted(const EffectRow& row, const std::optional<double>& bound) {
   return row.summed ? bound.value_or(0) : row.share_off.value_or(0);
 }
 
-/// Certain contribution of a neglected row to the sum: the known part of an undecided row, else nothing.
-double certainly(const EffectRow& row) {
-  if (row.state == State::off) return counted(row, row.neglected);
-  const bool known = row.state == State::undecided && row.summed && row.band->most != row.value;
-  return known ? *row.value : 0;
-}
+/// Contribution of a row to the sum that decides; an undecided row stays undecided and switches nothing on.
+double certainly(const EffectRow& row) { return row.state == State::off ? counted(row, row.neglected) : 0; }
 
 /// Whether a run neglects a row.
 bool is_off(const EffectRow& row) { return row.state != State::on || !row.not_built.empty(); }
