@@ -63,9 +63,14 @@ std::optional<Slices> slices_of(const Profile& profile) {
   return slices;
 }
 
-/// Value at 0 and slope of the straight line through the pressure of the slabs whose centres are in a range.
-std::optional<std::pair<double, double>> pressure_line(const Profile& profile, double from, double to) {
-  double n = 0, z = 0, p = 0, zz = 0, zp = 0;
+/// A straight line through the pressure of slabs: value at 0, slope, and the root mean square of what it misses.
+struct PressureLine {
+  double first = 0, second = 0, error = 0;
+};
+
+/// The line of least squares through the slabs whose centres are in a range.
+std::optional<PressureLine> pressure_line(const Profile& profile, double from, double to) {
+  double n = 0, z = 0, p = 0, zz = 0, zp = 0, squares = 0;
   for (std::size_t k = 0; k < profile.pressure.size(); ++k) {
     const double here = profile.centre(k);
     if (here < from || here > to) continue;
@@ -77,7 +82,11 @@ std::optional<std::pair<double, double>> pressure_line(const Profile& profile, d
   }
   if (n < 2) return std::nullopt;
   const double slope = (n * zp - z * p) / (n * zz - z * z);
-  return std::pair((p - slope * z) / n, slope);
+  const PressureLine line{(p - slope * z) / n, slope};
+  for (std::size_t k = 0; k < profile.pressure.size(); ++k)
+    if (const double here = profile.centre(k); here >= from && here <= to)
+      squares += std::pow(profile.pressure[k] - line.first - slope * here, 2);
+  return PressureLine{line.first, slope, std::sqrt(squares / n)};
 }
 
 /// Highest z, m, where phi, linear between slab centres, equals half of its volume-weighted mean between two quantiles.
@@ -165,6 +174,10 @@ std::optional<double> bed_height_by_pressure(const Profile& profile) {
   const double top = profile.slab * double(profile.slabs());
   const auto bed = pressure_line(profile, *low, *high), freeboard = pressure_line(profile, 1.1 * *surface, top);
   if (!bed || !freeboard || bed->second == freeboard->second) return std::nullopt;
+  // Two layers have two gradients: a line over both misses 0.072 of their difference, in units of the mean gradient, if
+  // they meet in its middle. Where it misses 2 % of the drop, the height is 6 % off.
+  constexpr double most_missed = 0.02;
+  if (bed->error > most_missed * std::abs(bed->second) * (*high - *low)) return std::nullopt;
   const double crossing = (freeboard->first - bed->first) / (bed->second - freeboard->second);
   return crossing > 0 && crossing < top ? std::optional(crossing) : std::nullopt;
 }

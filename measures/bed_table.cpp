@@ -65,7 +65,8 @@ Table<Bed> bed_table() {
        "the same for half of the mean of phi below z_0.50: the top of the dense bed, below what is suspended",
        of_profile(dense_height), also_profiles},
       {"bed_height_by_pressure", "m",
-       "where two straight lines through p cross, by least squares over z_0.10 to z_0.80 and above 1.1 bed heights",
+       "where two straight lines through p cross, by least squares over z_0.10 to z_0.80 and above 1.1 bed heights; "
+       "none if the first misses p by more than 2 % of the drop, as in two layers",
        of_profile(bed_height_by_pressure), only_profiles},
       {"pressure_drop", "Pa",
        "net pressure at the bottom less that at the top, continued linearly from the outer two slabs, in the history "

@@ -135,6 +135,9 @@ TEST(Measures, TheHeightByPressureIsWhereTheLinesCross) {
   for (std::size_t k = 0; k < p.slabs(); ++k) p.pressure.push_back(std::max(5.0, 105 - 1000 * p.centre(k)));
   ASSERT_TRUE(bed_height_by_pressure(p));
   EXPECT_NEAR(*bed_height_by_pressure(p), 0.1, 1e-12);  // rounding
+  for (std::size_t k = 0; k < p.slabs(); ++k)           // a second layer with a fifth of the gradient, above 0.05 m
+    p.pressure[k] = std::max({5.0, 15 - 200 * (p.centre(k) - 0.05), 65 - 1000 * p.centre(k)});
+  EXPECT_FALSE(bed_height_by_pressure(p));
   p.pressure.clear();
   EXPECT_FALSE(bed_height_by_pressure(p));
 }
