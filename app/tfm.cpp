@@ -162,7 +162,7 @@ class TfmRun final : public CaseRun {
     totals_ = totals_of(model_, core::cpu_seconds() - cpu_begin_, wall_seconds(), closures_before_);
     const std::optional<Neglected> promise = promise_of(monitor_.get());
     evenness_ = tfm::warning_of_an_even_bed(model_.constants().grid, model_.fields());
-    std::vector<std::string> warnings = evenness_;
+    std::vector<std::string> warnings = evenness_.empty() ? even_said_ : evenness_;
     if (std::string line = called_for_line(left_out_); !line.empty()) warnings.push_back(std::move(line));
     if (monitor_) warnings.insert(warnings.end(), monitor_->warnings().begin(), monitor_->warnings().end());
     return run_record_text({scene_, model_, *observers_, timers_, state, begin_, totals_, left_out_,
@@ -226,14 +226,17 @@ class TfmRun final : public CaseRun {
 
   void warn_if_even(double t) {
     for (const std::string& line :
-         even_->look(t, observers_->bed_height().value_or(HUGE_VAL), model_.constants().grid, model_.fields()))
+         even_->look(t, observers_->bed_height().value_or(HUGE_VAL), model_.constants().grid, model_.fields())) {
       say({"warning: " + line});
+      even_said_.push_back(fmt::format("at {:.4g} s {}", t, line));
+    }
   }
 
   tfm::Model model_;
   std::optional<tfm::EvennessWatch> even_ =
       tfm::EvennessWatch::of(model_.constants().grid, fluid::Ramp(scene_.inlet.superficial_velocity).greatest());
   std::vector<std::string> evenness_;                              ///< warning in the last record
+  std::vector<std::string> even_said_;                             ///< during the run, with its time
   std::unique_ptr<Monitor> monitor_ = Monitor::of(scene_, "tfm");  ///< null: no monitor
   std::vector<double> initial_mass_;
   std::optional<tfm::Observers> observers_;

@@ -44,7 +44,8 @@ std::optional<EvennessWatch> EvennessWatch::of(const core::Grid& grid, double ve
 
 std::vector<std::string> EvennessWatch::look(double time, double bed_height, const core::Grid& grid,
                                              const Fields& fields) {
-  if (looked_ || time * velocity_ < bed_height) return {};
+  constexpr double crossings = 10;
+  if (looked_ || time * velocity_ < crossings * bed_height) return {};
   looked_ = true;
   return warning_of_an_even_bed(grid, fields);
 }

@@ -17,7 +17,8 @@ namespace polybed::tfm {
 /// difference is below a tenth of the initial perturbation. Empty otherwise.
 [[nodiscard]] std::vector<std::string> warning_of_an_even_bed(const core::Grid& grid, const Fields& fields);
 
-/// The same warning during a run, once: when the fluid has crossed the bed and the bed is still laterally uniform.
+/// The same warning during a run, once: if the bed is still laterally uniform after the fluid has crossed it ten times.
+/// Bubbles of a gas bed need several crossings to grow from the perturbation of the start.
 class EvennessWatch {
  public:
   /// Empty if a column is one cell across, or no fluid flows. \param velocity  greatest superficial one, m/s
