@@ -88,7 +88,14 @@ void print_json(const core::Scene& scene, const std::string& method, const std::
 struct MethodRow {
   std::string method, law, partition;
   std::vector<InversionPoint> points;
+  bool suits = true;  ///< the law, at its last point
 };
+
+MethodRow row_of(const BinaryBed& bed, const std::string& method, const closures::DragLaw& law, const std::string& name,
+                 const std::string& partition) {
+  const auto points = inversion_points(bed, law, method);
+  return {method, name, partition, points, points.empty() || suits_point(name, law, bed, points.back())};
+}
 
 /// Every law of one size with every partition, but for the pairs that a law of mixtures is made of.
 void add_pairs(const core::Scene& scene, const BinaryBed& bed, const std::string& method,
@@ -98,7 +105,7 @@ void add_pairs(const core::Scene& scene, const BinaryBed& bed, const std::string
     for (const closures::DragLawInfo& partition : closures::partitions()) {
       const closures::DragLaw pair =
           relevance::with_shape(closures::drag_law(mean.name, partition.name, closures::Guard::on), scene);
-      if (pair.partition) rows.push_back({method, mean.name, partition.name, inversion_points(bed, pair, method)});
+      if (pair.partition) rows.push_back(row_of(bed, method, pair, mean.name, partition.name));
     }
   }
 }
@@ -106,17 +113,16 @@ void add_pairs(const core::Scene& scene, const BinaryBed& bed, const std::string
 /// Every method, with every drag law where it takes one; the force balance also with every mean law and partition.
 std::vector<MethodRow> all_methods(const core::Scene& scene) {
   const BinaryBed bed = binary_bed(scene);
-  const auto points = [&](const std::string& law, const std::string& method) {
-    return inversion_points(bed, relevance::with_shape(closures::drag_law(law, closures::Guard::on), scene), method);
+  const auto by_law = [&](const std::string& law, const std::string& method) {
+    return row_of(bed, method, relevance::with_shape(closures::drag_law(law, closures::Guard::on), scene), law, "");
   };
   std::vector<MethodRow> rows;
   for (const InversionMethod& method : inversion_methods()) {
     if (!method.takes_law) {
-      rows.push_back({method.name, "", "", points("cello", method.name)});
+      rows.push_back({method.name, "", "", by_law("cello", method.name).points});
       continue;
     }
-    for (const closures::DragLawInfo& law : closures::drag_laws())
-      rows.push_back({method.name, law.name, "", points(law.name, method.name)});
+    for (const closures::DragLawInfo& law : closures::drag_laws()) rows.push_back(by_law(law.name, method.name));
     if (method.takes_partition) add_pairs(scene, bed, method.name, rows);
   }
   return rows;
@@ -207,9 +213,11 @@ void print_best_methods(const std::vector<MethodRow>& rows, const core::Scene& s
         }
   }
   std::vector<double> velocities;
+  std::size_t unsuited = 0;
   for (const MethodRow& row : rows) {
     if (row.method != balance) continue;
-    if (!row.points.empty()) velocities.push_back(1e3 * row.points.back().velocity);
+    unsuited += row.suits ? 0 : 1;
+    if (!row.points.empty() && row.suits) velocities.push_back(1e3 * row.points.back().velocity);
     if (!shown && is_pair(row, drag, partition)) {
       core::print("the law of the case:\n");
       print_row(row, name_of(row), true);
@@ -220,6 +228,10 @@ void print_best_methods(const std::vector<MethodRow>& rows, const core::Scene& s
   if (n > 0)
     core::print("all {} laws and pairs: {:.4g} to {:.4g} mm/s, half of them {:.3g} to {:.3g}\n", n, velocities.front(),
                 velocities.back(), velocities[n / 4], velocities[(3 * n) / 4]);
+  else
+    core::print("no law or pair within its range finds a point\n{}",
+                !core::acts(scene, "drag") ? "" : line_without_point(scene, relevance::drag_law_of(scene)));
+  if (unsuited > 0) core::print("outside their range at their point, not counted: {} laws and pairs\n", unsuited);
   core::print("other methods:\n");
   for (const MethodRow& row : rows)
     if (row.method != balance && (row.law.empty() || row.law == drag))
@@ -273,17 +285,6 @@ void print_composition(const core::Scene& scene, const closures::DragLaw& law, c
                                          {"composition", rows}}));
 }
 
-/// Why two species never change places, for the message; empty if sizes and densities do not decide.
-std::string reason_of(const core::Scene& scene) {
-  const bool first = scene.species[0].diameter > scene.species[1].diameter;
-  const core::Species &larger = scene.species[first ? 0 : 1], &smaller = scene.species[first ? 1 : 0];
-  if (larger.density < smaller.density || larger.diameter == smaller.diameter) return "";
-  return fmt::format(
-      "\nlayers change places only if the larger particles are the lighter ones; {} is larger and {}, so {} is on top "
-      "at every velocity",
-      larger.name, larger.density > smaller.density ? "denser" : "as dense", smaller.name);
-}
-
 /// --law replaces the mean law alone.
 void tell_of_the_partition(const InversionOptions& options, const core::Scene& scene) {
   if (options.law.empty() || !options.partition.empty() || !scene.effects.contains("partition")) return;
@@ -316,8 +317,8 @@ void run_without_a_run(const InversionOptions& options) {
     return print_json(scene, options.method, points, band, beside,
                       points.empty() ? std::nullopt : top_below(points.back()));
   if (points.empty())
-    core::print("no inversion point between voidage 0.2 and 1 by {} with {}{}\n", options.method, name,
-                reason_of(scene));
+    core::print("no inversion point between voidage 0.2 and 1 by {} with {}\n{}", options.method, name,
+                line_without_point(scene, law));
   for (const InversionPoint& p : points) {
     const double area = scene.places.has("inlet.flow_rate") ? scene.column.cross_section() : 0;
     core::print("inversion at {:.2f} mm/s{}, voidage {:.4f} ({}, {})\n", 1e3 * p.velocity,

@@ -2,8 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include <nlohmann/json.hpp>
 
+#include "relevance/advised_drag.hpp"
 #include "relevance/drag_law.hpp"
 
 namespace polybed::app {
@@ -25,6 +29,17 @@ std::string line_of(const char* what, const std::vector<double>& values) {
   std::string text = fmt::format("  {}: {:.2f}", what, 1e3 * values.front());
   if (values.size() > 1) text += fmt::format(" to {:.2f}", 1e3 * values.back());
   return text + " mm/s\n";
+}
+
+/// Why two species never change places, for the message; empty if sizes and densities do not decide.
+std::string reason_of(const core::Scene& scene) {
+  const bool first = scene.species[0].diameter > scene.species[1].diameter;
+  const core::Species &larger = scene.species[first ? 0 : 1], &smaller = scene.species[first ? 1 : 0];
+  if (larger.density < smaller.density || larger.diameter == smaller.diameter) return "";
+  return fmt::format(
+      "layers change places only if the larger particles are the lighter ones; {} is larger and {}, so {} is on top "
+      "at every velocity\n",
+      larger.name, larger.density > smaller.density ? "denser" : "as dense", smaller.name);
 }
 
 }  // namespace
@@ -75,6 +90,37 @@ std::string lines_of(const InversionBeside& beside) {
     text += fmt::format("  by shape = \"{}\": {}\n", shape,
                         point ? fmt::format("{:.2f} mm/s", 1e3 * point->velocity) : "no inversion point");
   return text + line_of("measured", beside.measured) + line_of("simulated by others", beside.simulated);
+}
+
+bool suits_point(const std::string& name, const closures::DragLaw& law, const BinaryBed& bed,
+                 const InversionPoint& point) {
+  using relevance::DragScene;
+  constexpr std::string_view for_comparison = "syamlal";
+  const bool gas = bed.fluid.density < relevance::lightest_liquid;
+  const DragScene kind = gas ? DragScene::gas_bed : DragScene::liquid_bed;
+  const std::vector<std::string> of_beds = relevance::laws_of_beds(kind);
+  if (std::find(of_beds.begin(), of_beds.end(), name) != of_beds.end()) return true;
+  const bool crowded = relevance::unsuited(name, kind).empty() || relevance::unsuited(name, DragScene::fixed).empty();
+  if (name == for_comparison || !crowded) return false;
+  closures::GuardCount count;
+  double f = 0, slope = 0;
+  const double diameter = closures::sauter_diameter(bed.share, bed.diameter),
+               reynolds = bed.fluid.density * point.velocity * diameter / bed.fluid.viscosity;
+  closures::drag_of_points(law, {&point.voidage, 1}, {&reynolds, 1}, {&f, 1}, {&slope, 1}, count);
+  return count.guarded == 0;
+}
+
+std::string line_without_point(const core::Scene& scene, const closures::DragLaw& law) {
+  if (std::string reason = reason_of(scene); !reason.empty()) return reason;
+  const BinaryBed bed = binary_bed(scene);
+  std::optional<std::size_t> upper;
+  for (const double voidage : {0.45, 0.6, 0.75, 0.9}) {
+    const auto here = on_top_below(bed, law, {HUGE_VAL, voidage});  // the one that rests at the lower velocity
+    if (!here || (upper && *upper != *here)) return "";
+    upper = here;
+  }
+  return fmt::format("by {}: {} is below at all velocities, {} on top\n", relevance::drag_name_of(scene),
+                     scene.species[1 - *upper].name, scene.species[*upper].name);
 }
 
 }  // namespace polybed::app

@@ -30,4 +30,12 @@ struct InversionBeside {
 [[nodiscard]] core::Json json_of(const InversionBeside& beside);
 [[nodiscard]] std::string lines_of(const InversionBeside& beside);
 
+/// Whether a law is made for such a bed at its point: not for lone or dilute spheres, nor for comparison alone, and
+/// within its stated range, unless it was derived from such beds.
+[[nodiscard]] bool suits_point(const std::string& name, const closures::DragLaw& law, const multiscale::BinaryBed& bed,
+                               const multiscale::InversionPoint& point);
+
+/// Which species is below at all velocities, for a law without an inversion point; empty if that is not known.
+[[nodiscard]] std::string line_without_point(const core::Scene& scene, const closures::DragLaw& law);
+
 }  // namespace polybed::app

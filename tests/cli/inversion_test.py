@@ -5,7 +5,7 @@ import json
 import re
 
 import program
-from program import DONE, ROOT, WRONG_CASE, Scratch, history, strict_json
+from program import DONE, FILTER, ROOT, WRONG_CASE, Scratch, history, strict_json
 
 CASE = ROOT / "cases/small-binary/case.toml"
 # On a coarse grid and for 0.8 s: enough to tell who is on top, not a result.
@@ -196,6 +196,14 @@ class WithoutARun(Scratch):
                 if found := re.match(r"[ *] (\w+) x (\w+) +([\d.]+) ", line):
                     [row] = [row for row in every if (row["law"], row["partition"]) == found.groups()[:2]]
                     self.assertAlmostEqual(float(found[3]), 1e3 * row["roots"][-1]["velocity_m_s"], delta=5.1e-3)  # as printed
+
+    def test_layers_that_never_change_places_say_which_is_below(self):
+        """A filter of sand under anthracite: stokes, batchelor, carman_kozeny and syamlal find points far outside their ranges."""
+        case = self.write("case.toml", FILTER)
+        told = self.ends(DONE, "inversion", case, "--method", "all").stdout
+        self.assertRegex(told, r"(?m)^no law or pair within its range finds a point\nby .*: sand is below at all velocities, anthracite on top$")
+        self.assertRegex(told, r"(?m)^outside their range at their point, not counted: [1-9]\d* laws and pairs$")
+        self.assertIn("sand is below at all velocities", self.ends(DONE, "inversion", case).stdout)
 
     def test_a_mean_law_with_a_partition(self):
         # mm/s and voidage of an evaluation apart from this program, as printed: a unit of the last digit, for rounding and for B's shares of

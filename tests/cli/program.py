@@ -55,6 +55,42 @@ name = "coarse"
 diameter = "1.5 mm"
 density = 2000
 """
+# A filter of two media in layers, at its backwash.
+FILTER = """[column]
+size = ["50 mm", "1050 mm"]
+cells = [1, 105]
+sides = "periodic"
+outlet = "open"
+[fluid]
+name = "water"
+temperature = "10 degC"
+[[species]]
+name = "sand"
+diameter = "0.6 mm"
+density = 2650
+[[species]]
+name = "anthracite"
+diameter = "1.2 mm"
+density = 1450
+[bed]
+solids_fraction = 0.57
+[[layer]]
+species = "sand"
+height = "250 mm"
+[[layer]]
+species = "anthracite"
+height = "300 mm"
+solids_fraction = 0.52
+[inlet]
+superficial_velocity = "40 m/h"
+[effects]
+drag = "wen_yu"
+partition = "brinkman_oseen"
+solids_stress = "frictional"
+others = "none"
+[run]
+until = "120 s"
+"""
 
 
 def small_bed(until):
