@@ -163,7 +163,8 @@ std::vector<core::Rule> stress_rules() {
       {packing_keys({"tfm.max_packing", "tfm.frictional_onset"}),
        "tfm.max_packing = {} must lie above tfm.frictional_onset = {}", packing_below_onset},
       {packing_keys({"bed.solids_fraction", "tfm.max_packing", "tfm.frictional_onset"}),
-       "bed.solids_fraction = {} must lie above tfm.frictional_onset = {} for tfm.max_packing = \"auto\"",
+       "bed.solids_fraction = {} must lie above tfm.frictional_onset = {} for tfm.max_packing = \"auto\"; lower the "
+       "onset",
        bed_below_onset},
       {packing_keys({"tfm.max_packing", "bed.solids_fraction", "tfm.frictional_onset"}),
        "tfm.max_packing = \"auto\": the bed is too light to be held at bed.solids_fraction; give a number, e.g. 0.64",
