@@ -32,7 +32,7 @@ const std::vector<Term>& terms() {
       {"to go on", "line of the card", "of a bed that is not steady: the command that runs it for as long again", ""},
       {"expect", "line of the card",
        "the bed by the balance of forces, without a run: its state and height by the drag law of the case, and the "
-       "heights by laws that were made from such beds",
+       "heights by laws that were made from such beds; layers add up, as if they stay apart",
        "polybed explain drag says which law suits which bed"},
       {"expands by", "line of the card",
        "superficial velocities at which the bed is so much higher than settled, from the least to the greatest of the "
@@ -57,7 +57,10 @@ const std::vector<Term>& terms() {
       {"step", "line of the card", "what limited most time steps", "polybed explain with the limit's name"},
       {"rises at", "line of the card", "speed at which a single particle lighter than the fluid rises in it", ""},
       {"Geldart class", "line of the card",
-       "behaviour in a gas by size and density (Geldart 1973): A aeratable, B bubbling, C cohesive, D spoutable", ""},
+       "behaviour in a gas by size and density (Geldart 1973): A aeratable, expands above u_mf and bubbles above a "
+       "higher u_mb; B bubbles above u_mf; C cohesive, hardly fluidises; D spoutable, coarse, bubbles above u_mf. The "
+       "height of a bubbling bed swings about its mean",
+       ""},
       {"validity", "line of the card", "how far the models agree with measured beds of this kind",
        "polybed validate --list shows the comparisons"},
       {"dense bed", "line of the card",

@@ -6,15 +6,13 @@
 #include <numbers>
 #include <numeric>
 
-#include "closures/bed_expansion.hpp"
-#include "closures/hopper_discharge.hpp"
-#include "closures/minimum_fluidisation.hpp"
 #include "closures/mixture.hpp"
 #include "closures/sphere.hpp"
 #include "closures/terminal_velocity.hpp"
 #include "core/case/layers.hpp"
 #include "measures/table.hpp"
-#include "multiscale/card/slices.hpp"
+#include "multiscale/card/discharge.hpp"
+#include "multiscale/card/layer_bed.hpp"
 #include "relevance/advised_drag.hpp"
 #include "relevance/drag_law.hpp"
 #include "relevance/fluid_properties.hpp"
@@ -74,38 +72,6 @@ std::vector<double> shares_of(const core::Scene& scene) {
   return share;
 }
 
-/// The balance of drag and weight in a scene.
-struct Balance {
-  std::string name;
-  std::optional<closures::DragLaw> law;
-  double packed = 0;  ///< voidage of the settled bed; 0: unknown
-
-  [[nodiscard]] auto drag() const {
-    return [this](double eps, double re) { return closures::pure_drag_at(*law, eps, re); };
-  }
-  [[nodiscard]] bool known() const { return law && packed > 0; }
-  [[nodiscard]] std::optional<double> minimum_fluidisation(const CarriedBed& bed) const {
-    return minimum_fluidisation(bed, packed);
-  }
-  /// \param at  voidage of the bed when settled
-  [[nodiscard]] std::optional<double> minimum_fluidisation(const CarriedBed& bed, double at) const {
-    if (!(bed.excess > 0 && bed.gravity > 0)) return {};
-    if (known()) return closures::carrying_velocity(drag(), bed, at);
-    return closures::minimum_fluidisation(bed.diameter, bed.excess, bed.fluid_density, bed.viscosity, bed.gravity);
-  }
-  /// \param solids  volume over the area of the bottom, m
-  [[nodiscard]] std::optional<Filled> height(const Slices& slices, const CarriedBed& bed, double velocity,
-                                             double solids) const {
-    if (!known() || !(solids > 0)) return {};
-    const auto fraction_at = [&](double u) { return 1 - closures::carried_voidage(drag(), bed, u, packed); };
-    if (!slices.empty())
-      return fill(slices, solids,
-                  [&](std::size_t n) { return fraction_at(velocity * slices.height[n] / slices.even[n]); });
-    const double fraction = fraction_at(velocity);
-    return fraction > 0 ? std::optional(Filled{solids / fraction, solids}) : std::nullopt;
-  }
-};
-
 Balance balance_of(const core::Scene& scene) {
   Balance balance;
   const double solids = core::settled_fractions(scene).of_bed;
@@ -116,27 +82,13 @@ Balance balance_of(const core::Scene& scene) {
   return balance;
 }
 
-/// The mixture with its Sauter diameter and mean density. \param share  of each species; their sum can be below 1
-CarriedBed mixture_of(const core::Scene& scene, const std::vector<double>& share,
-                      const relevance::FluidConstants& fluid, double gravity) {
-  std::vector<double> part, diameter;
-  double density = 0;
-  const double sum = std::accumulate(share.begin(), share.end(), 0.0);
-  for (std::size_t j = 0; j < share.size(); ++j) {
-    if (!(share[j] > 0)) continue;
-    part.push_back(share[j] / sum);
-    diameter.push_back(scene.species[j].diameter);
-    density += part.back() * scene.species[j].density;
-  }
-  return {closures::sauter_diameter(part, diameter), density - fluid.density, fluid.density, fluid.viscosity, gravity};
-}
-
-/// Least time for the top of a packed bed to reach its expected height.
-std::optional<double> rising_time(const BedOfCase& bed, double settled, double top_of_column) {
+/// Least time for the top of a packed bed to reach its expected height. \param lifting  of its first layer to lift, m/s
+std::optional<double> rising_time(const core::Scene& scene, const BedOfCase& bed, double settled, double lifting) {
   constexpr double least = 1.02;  // ratio of heights: below it nothing rises
+  const double top = scene.column.size[1];
   if (!bed.own.height || bed.state != Fluidisation::fluidised || *bed.own.height < least * settled) return {};
-  return closures::rising_time(std::min(*bed.own.height, top_of_column) - settled, *bed.velocity,
-                               *bed.own.minimum_fluidisation);
+  if (overflows(scene, bed)) return {};
+  return closures::rising_time(std::min(*bed.own.height, top) - settled, *bed.velocity, lifting);
 }
 
 /// Predicts the whole bed at the velocity of its inlet. \param share  of each species
@@ -144,7 +96,6 @@ void expect(const core::Scene& scene, const Slices& slices, const Balance& balan
             const relevance::FluidConstants& fluid, double gravity, BedOfCase& bed) {
   using enum Fluidisation;
   const double velocity = *bed.velocity;
-  bed.state = velocity < *bed.own.minimum_fluidisation ? packed : fluidised;
   for (std::size_t j = 0; j < share.size(); ++j)
     if (share[j] > 0 && least_velocity(scene.column, velocity) > bed.species[j].terminal.value_or(0)) {
       share[j] = 0;
@@ -156,25 +107,46 @@ void expect(const core::Scene& scene, const Slices& slices, const Balance& balan
     bed.leaving.clear();
     return;
   }
+  const std::vector<LayerBed> layers = layers_of(scene, slices, share, fluid, gravity);
+  const std::vector<double> lifting = lifting_velocities(balance, layers, *bed.own.minimum_fluidisation);
+  const double first = *std::min_element(lifting.begin(), lifting.end());
+  bed.state = velocity < first ? packed : fluidised;
+  if (bed.state == fluidised)
+    bed.resting =
+        std::size_t(std::count_if(lifting.begin(), lifting.end(), [velocity](double one) { return one > velocity; }));
   const CarriedBed bed_of_those = mixture_of(scene, share, fluid, gravity);
   const double solids = stays * scene.column.even_height(scene.bed.static_height) * scene.bed.solids_fraction;
   const auto fill_by = [&](const Balance& one) { return one.height(slices, bed_of_those, velocity, solids); };
-  const auto height_by = [&](const Balance& one) {
-    const std::optional<Filled> filled = fill_by(one);
+  const auto height_of = [](const std::optional<Filled>& filled) {
     return filled ? std::optional(filled->height) : std::nullopt;
   };
-  bed.own.height = height_by(balance);
+  const auto set_height = [&](const Balance& one, ByLaw& by) {
+    by.height = height_of(fill_by(one));
+    if (layers.empty()) return;
+    by.mixed = by.height;
+    by.height = sum_over(layers, [&](const LayerBed& layer) {
+      return height_of(layer.of(one).height({}, layer.bed, velocity, layer.solids));
+    });
+  };
+  set_height(balance, bed.own);
+  bed.turns_over = bed.state == fluidised && turns_over(balance, layers, velocity);
+  if (bed.state == packed && slices.empty())
+    bed.packed_drop = layers.empty() ? balance.packed_drop(bed_of_those, velocity, solids)
+                                     : sum_over(layers, [&](const LayerBed& layer) {
+                                         return layer.of(balance).packed_drop(layer.bed, velocity, layer.solids);
+                                       });
   if (const auto filled = fill_by(balance); filled && slices.between_walls && bed.state == fluidised)
     bed.lift = filled->solids * bed_of_those.excess * gravity;
   Balance other = balance;
   for (ByLaw& one : bed.others) {
     other.law = relevance::with_shape(relevance::drag_law_named(one.law), scene);
-    one.height = height_by(other);
+    set_height(other, one);
   }
   const bool bubbles = fluid.density < relevance::lightest_liquid;
   const bool packed_start = scene.bed.start_solids_fraction == scene.bed.solids_fraction;
   if (!bubbles && packed_start && slices.empty())
-    bed.rising_time = rising_time(bed, solids / stays / (1 - balance.packed), scene.column.size[1]);
+    bed.rising_time =
+        rising_time(scene, bed, layers.empty() ? solids / stays / (1 - balance.packed) : bed.settled, first);
 }
 
 /// From the rows in docs/record/validation.md with this kind of bed.
@@ -187,27 +159,6 @@ std::string validity_of(const core::Scene& scene, bool gas) {
   if (scene.species.size() == 2 && scene.species[0].density != scene.species[1].density)
     return "one measured liquid bed of two sizes: inverts at 31.2 mm/s by balance, 30 measured";
   return "no measured bed of this kind";
-}
-
-/// Discharge of a case's particles through its opening, with their Sauter diameter and the settled solids fraction.
-std::optional<ExpectedDischarge> expected_discharge(const core::Scene& scene, double gravity) {
-  const std::vector<double> share = shares_of(scene);
-  const bool counted = scene.bed.particles.size() == scene.species.size();
-  if (!scene.dem.opening || !scene.walls.empty() || share.empty() || !counted ||
-      !(scene.bed.solids_fraction > 0 && gravity > 0))
-    return {};
-  std::vector<double> diameter;
-  double mass = 0, density = 0;
-  for (std::size_t j = 0; j < share.size(); ++j) {
-    const core::Species& species = scene.species[j];
-    diameter.push_back(species.diameter);
-    density += share[j] * species.density;
-    mass += double(scene.bed.particles[j]) * species.density * closures::sphere_volume(species.diameter / 2);
-  }
-  const double mean = closures::sauter_diameter(share, diameter), width = *scene.dem.opening;
-  const double depth = scene.column.dimensions == 2 ? scene.column.size[2] : 0;  // a slot; else a round hole
-  return ExpectedDischarge{closures::hopper_discharge(width, depth, mean, scene.bed.solids_fraction * density, gravity),
-                           mass, width / mean, !scene.column.is_tapered()};
 }
 
 /// Masses of the species at the start, kg; empty if the case does not give them.
@@ -264,7 +215,7 @@ BedOfCase bed_without_expansion(const core::Scene& scene, const Slices& slices) 
   if (scene.places.has("inlet.flow_rate")) bed.area = scene.column.cross_section();
   const double gravity = scene.column.gravity * std::max(0.0, -scene.column.down[1]);
   if (!scene.fluid.present()) {
-    bed.discharge = expected_discharge(scene, gravity);
+    bed.discharge = expected_discharge(scene, shares_of(scene), gravity);
     return bed;
   }
   const relevance::FluidConstants fluid = relevance::fluid_constants(scene.fluid);
@@ -318,7 +269,8 @@ std::optional<double> velocity_for(core::Scene scene, const Slices& slices, cons
     const std::optional<double>& found = moved.others[law].height;
     return found && moved.leaving.empty() ? std::optional(*found >= height) : std::nullopt;
   };
-  const double start = *bed.others[law].minimum_fluidisation;
+  double start = *bed.others[law].minimum_fluidisation;
+  for (int n = 0; n < 20 && reaches(start).value_or(false); ++n) start /= 2;  // layers can lift before a mixture
   for (double high = step * start; high < greatest * start; high *= step) {
     const std::optional<bool> reached = reaches(high);
     if (!reached) return {};
@@ -354,6 +306,10 @@ void add_expansion(const core::Scene& scene, const Slices& slices, BedOfCase& be
 }
 
 }  // namespace
+
+bool overflows(const core::Scene& scene, const BedOfCase& bed) {
+  return scene.column.outlet == core::Outlet::open && bed.own.height && *bed.own.height >= scene.column.size[1];
+}
 
 double least_velocity(const core::Column& column, double velocity) {
   if (!column.is_tapered()) return velocity;

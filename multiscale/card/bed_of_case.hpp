@@ -22,6 +22,11 @@ enum class Fluidisation { unknown, packed, fluidised, carried_up, carried_out };
 /// Name in run.json; empty if unknown.
 [[nodiscard]] std::string name_of(Fluidisation state);
 
+struct BedOfCase;
+
+/// Whether solids are expected to leave over an open outlet.
+[[nodiscard]] bool overflows(const core::Scene& scene, const BedOfCase& bed);
+
 /// Behaviour of one species' particles in the fluid. Empty: they do not sink in it, or there is no fluid.
 struct SpeciesInFluid {
   std::string name;
@@ -37,13 +42,15 @@ struct ExpectedDischarge {
   double mass;       ///< of all particles, kg
   double diameters;  ///< width of the opening over the mean diameter
   bool flat;         ///< the bottom around it is flat and keeps solids in its corners
+  bool cone;         ///< a cone leads to it, for which the correlation is not made
 };
 
 /// Predictions of one drag law for the bed.
 struct ByLaw {
   std::string law;                             ///< its name; empty: Wen and Yu's correlation
   std::optional<double> minimum_fluidisation;  ///< of the mixture, at its Sauter diameter and mean density, m/s
-  std::optional<double> height;                ///< predicted for a uniform bed, m
+  std::optional<double> height;                ///< predicted for a uniform bed, or the sum of its layers, m
+  std::optional<double> mixed = {};            ///< of a bed in layers, if they were mixed, m
 };
 
 /// The range of velocities at a bed expansion, from the laws derived from such beds.
@@ -66,8 +73,11 @@ struct BedOfCase {
   std::optional<double> inlet;                         ///< of a case with jets: the inlet's own at that time, m/s
   double settled = 0;                                  ///< m, height of the settled bed, higher between walls inside
   std::optional<double> lift;                          ///< Pa, pressure drop expected between walls inside, fluidised
+  std::optional<double> packed_drop;                   ///< Pa, pressure drop of the packed bed, by the law of the case
   Fluidisation state{};                                ///< predicted
-  std::vector<std::string> leaving;                    ///< species that the fluid lifts out of a bed of the others
+  std::size_t resting = 0;                             ///< layers of a fluidised bed that are still packed
+  bool turns_over = false;                     ///< an upper layer has a greater bulk density than the one below it
+  std::vector<std::string> leaving;            ///< species that the fluid lifts out of a bed of the others
   std::vector<ExpansionAt> expansion;          ///< of a bed in a liquid, as far as the height of the column allows
   std::optional<double> rising_time;           ///< s, least time for the top of a packed bed in a liquid to rise
   std::optional<ExpectedDischarge> discharge;  ///< of dry particles with dem.opening
@@ -77,8 +87,8 @@ struct BedOfCase {
 
 /// From the balance of the case's drag law with the buoyant weight, at the voidage of the settled bed; without a drag
 /// law or that voidage from Wen and Yu's correlation (closures/minimum_fluidisation.hpp). Terminal velocities after
-/// Schiller and Naumann. The height is for the species that stay. Runs nothing. Throws core::CaseError for an unknown
-/// fluid.
+/// Schiller and Naumann. The height is for the species that stay; layers across the whole column of one cross-section
+/// stay apart, and their heights add up. Runs nothing. Throws core::CaseError for an unknown fluid.
 [[nodiscard]] BedOfCase bed_of_case(const core::Scene& scene);
 
 /// Geldart's class (Powder Technology 7 (1973) 285) by his lines, rho_s - rho_f in g/cm3 and d in um: D above (rho_s -

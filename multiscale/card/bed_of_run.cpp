@@ -225,8 +225,7 @@ BedOfRun bed_of_run(const core::Scene& scene, const core::History& history) {
   bed.layers = layers_of(scene, kinds, window, bed);
   bed.cell = scene.fluid.present() ? scene.column.size[1] / scene.column.cells[1] : 0;
   for (const measures::Kind& kind : measures::named_species(names))
-    if (const std::optional<TimeMean> mass = window.mean("mass_" + kind.name + "_kg"))
-      bed.masses.emplace_back(kind.name, mass->mean);
+    if (const Series* mass = history.find("mass_" + kind.name + "_kg")) bed.masses.emplace_back(kind.name, last(*mass));
   find_exits(scene, kinds, window, bed);
   if (!bed.hangs) find_tops(kinds, window, bed);
   if (bed.hangs) bed.height.reset(), bed.dense.reset();  // its top is the column's

@@ -33,7 +33,7 @@ struct BedOfRun {
   std::optional<measures::TimeMean> drop;              ///< the same over the buoyant weight
   std::optional<double> mixing;                        ///< 1 mixed, 0 separated
   double cell = 0;                                     ///< m, height of a cell
-  std::vector<std::pair<std::string, double>> masses;  ///< kg in the column; size classes count as one
+  std::vector<std::pair<std::string, double>> masses;  ///< kg in the column at the end; size classes count as one
   Fluidisation state{};
   Layers layers{};
   std::map<std::string, double> out;       ///< kg since the start, by kind, for a scene with openings

@@ -77,6 +77,23 @@ std::string words_of(Fluidisation state) {
 
 constexpr std::size_t most_species = 4;  // whose tops a line lists
 
+/// Height of the bed by the law of the case, with what its layers change.
+std::string expected_height(const core::Scene& scene, const BedOfCase& bed) {
+  const double top = scene.column.size[1], height = *bed.own.height;
+  std::string text = height < top ? fmt::format(", about {:.0f} mm high by {}", 1e3 * height, bed.own.law)
+                                  : ", up to the top of the column by " + bed.own.law +
+                                        (overflows(scene, bed) ? ", over which solids leave" : "");
+  if (bed.own.mixed) text += " in layers";
+  text += " (";
+  if (bed.own.mixed && *bed.own.mixed < top) text += fmt::format("{:.0f} mm if mixed, ", 1e3 * *bed.own.mixed);
+  const bool lifted = !scene.walls.empty() && bed.settled > (1 + 1e-9) * scene.bed.static_height;
+  text += fmt::format("settled {:.0f} mm{}, column {:.0f} mm)", 1e3 * bed.settled,
+                      lifted ? fmt::format(", {:.0f} mm without the walls inside", 1e3 * scene.bed.static_height) : "",
+                      1e3 * top);
+  if (bed.resting > 0) text += fmt::format("; layers still packed: {}", bed.resting);
+  return text + (bed.turns_over ? "; an upper layer becomes denser than the one below: they mix or change places" : "");
+}
+
 /// Predictions for an opening in the bottom.
 void add_discharge(const ExpectedDischarge& out, std::vector<std::string>& lines) {
   const std::string width = fmt::format("the opening is {:.2g} particle diameters wide", out.diameters);
@@ -84,7 +101,9 @@ void add_discharge(const ExpectedDischarge& out, std::vector<std::string>& lines
   lines.push_back(card_line("expect", fmt::format("discharge of about {}/s; {} would be out after {:.2g} s",
                                                   mass_text(out.rate), mass_text(out.mass), out.mass / out.rate)));
   lines.push_back(card_line("", std::string("estimate by Beverloo's law, good to 30 %") +
-                                    (out.flat ? "; a flat bottom keeps what lies in its corners" : "")));
+                                    (out.cone   ? " for a flat bottom; a steep cone discharges more"
+                                     : out.flat ? "; a flat bottom keeps what lies in its corners"
+                                                : "")));
   if (out.diameters < closures::least_hopper_opening)
     lines.push_back(card_line("", fmt::format("{}: below {:g} it may block", width, closures::least_hopper_opening)));
 }
@@ -106,12 +125,14 @@ std::string exits_text(const BedOfRun& bed) {
 }
 
 std::string out_text(const BedOfRun& bed) {
+  constexpr double nothing = 1e-12;  // of what was supplied: the tail of a continuum, far less than a particle
   std::vector<std::string> parts;
   for (const auto& [name, mass] : bed.out) {
     if (is_class(bed.out, name)) continue;
     const auto share = bed.recovery.find(name);
-    parts.push_back(name + " " + mass_text(mass) +
-                    (share == bed.recovery.end() ? "" : fmt::format(" ({:.3g} %)", 100 * share->second)));
+    const bool none = share != bed.recovery.end() && std::abs(share->second) < nothing;
+    parts.push_back(name + " " + mass_text(none ? 0 : mass) +
+                    (share == bed.recovery.end() ? "" : fmt::format(" ({:.3g} %)", none ? 0 : 100 * share->second)));
   }
   return each(parts);
 }
@@ -243,7 +264,9 @@ void write_expected(core::Json& json, const core::Scene& scene, const BedOfCase&
       {"state", core::text_or_null(name_of(bed.state))},
       {"law", core::text_or_null(bed.own.law)},
       {"bed_height_m", core::or_null(bed.own.height)},
+      {"bed_height_mixed_m", core::or_null(bed.own.mixed)},
       {"settled_height_m", bed.settled},
+      {"packed_pressure_drop_Pa", core::or_null(bed.packed_drop)},
       {"expansion", expansion},
       {"mass_kg", json_or_null({bed.masses.begin(), bed.masses.end()})},
       {"u_mf_by_packing", packings},
@@ -261,15 +284,8 @@ std::vector<std::string> expectation_lines(const core::Scene& scene, const BedOf
   const double top = scene.column.size[1];
   if (bed.state != Fluidisation::unknown) {
     std::string text = words_of(bed.state);
-    if (bed.own.height) {
-      text += *bed.own.height < top ? fmt::format(", about {:.0f} mm high by {}", 1e3 * *bed.own.height, bed.own.law)
-                                    : ", up to the top of the column by " + bed.own.law;
-      const bool lifted = !scene.walls.empty() && bed.settled > (1 + 1e-9) * scene.bed.static_height;
-      text += fmt::format(
-          " (settled {:.0f} mm{}, column {:.0f} mm)", 1e3 * bed.settled,
-          lifted ? fmt::format(", {:.0f} mm without the walls inside", 1e3 * scene.bed.static_height) : std::string(),
-          1e3 * top);
-    }
+    if (bed.packed_drop && *bed.packed_drop > 0) text += fmt::format(", pressure drop {:.4g} Pa", *bed.packed_drop);
+    if (bed.own.height) text += expected_height(scene, bed);
     if (!bed.leaving.empty())
       text += fmt::format("; lifted {}: {}", scene.column.outlet == core::Outlet::open ? "out" : "to the top",
                           each(bed.leaving));
@@ -289,6 +305,8 @@ std::vector<std::string> expectation_lines(const core::Scene& scene, const BedOf
     lines.push_back(card_line("expands by", text + " by laws of such beds"));
   }
   if (bed.discharge) add_discharge(*bed.discharge, lines);
+  if (!bed.discharge && scene.dem.opening && !scene.walls.empty())
+    lines.push_back(card_line("expect", "discharge not estimated: Beverloo's law has no walls inside but a cone"));
   add_velocities(bed, true, lines);
   if (!bed.masses.empty()) lines.push_back(card_line("solids", masses_text(bed.masses)));
   if (bed.rising_time) {

@@ -67,6 +67,19 @@ std::string shapes_text(const ByLaw& shape, double area) {
   return fmt::format("{} by shape = \"{}\"", each(parts), shape.law);
 }
 
+/// Where the classes of a bed bubble (Geldart, Powder Technology 7 (1973) 285); empty for cohesive powders.
+std::string bubbling_text(const BedOfCase& bed) {
+  const auto has = [&](const char* letter) {
+    return std::any_of(bed.species.begin(), bed.species.end(), [&](const auto& one) { return one.geldart == letter; });
+  };
+  std::vector<std::string> parts;
+  if (has("A")) parts.emplace_back("A bubbles above u_mb, which exceeds u_mf");
+  if (has("B") || has("D"))
+    parts.push_back(fmt::format("{}{}{} bubble{} above u_mf", has("B") ? "B" : "", has("B") && has("D") ? " and " : "",
+                                has("D") ? "D" : "", has("B") && has("D") ? "" : "s"));
+  return parts.empty() ? "" : each(parts) + ": the height swings about its mean (Geldart 1973)";
+}
+
 }  // namespace
 
 std::string plain(double value, int digits) {
@@ -160,7 +173,9 @@ void add_velocities(const BedOfCase& bed, bool in_full, std::vector<std::string>
   for (const SpeciesInFluid& species : bed.species)
     if (!species.geldart.empty())
       classes.push_back(bed.species.size() > 1 ? species.name + " " + species.geldart : species.geldart);
-  if (!classes.empty()) lines.push_back(card_line("Geldart class", each(classes)));
+  if (classes.empty()) return;
+  lines.push_back(card_line("Geldart class", each(classes)));
+  if (const std::string text = bubbling_text(bed); in_full && !text.empty()) lines.push_back(card_line("", text));
 }
 
 }  // namespace polybed::multiscale

@@ -180,6 +180,8 @@ class Card(Scratch):
         first, last = (int(np.argmax(out >= share * out[-1])) for share in (0.1, 0.9))
         self.assertAlmostEqual(card["discharge_kg_s"], (out[last] - out[first]) / (time[last] - time[first]), places=12)
         self.assertEqual(card["out_kg"], {"glass": out[-1]})
+        self.assertEqual(card["mass_kg"], {"glass": rows["mass_glass_kg"][-1]})  # at the end, as what has left
+        self.assertLess(card["mass_kg"]["glass"], rows["mass_glass_kg"][-10])
         self.assertAlmostEqual(card["recovery"]["glass"], out[-1] / rows["mass_glass_kg"][0], places=12)
         self.assertIsNone(card["u_mf_m_s"])
         self.assertIsNone(card["state"])
@@ -228,9 +230,12 @@ class Card(Scratch):
     def test_a_gas_has_geldart_classes(self):
         """By the lines of his paper: 0.5 mm of 2500 kg/m3 is B, 1.5 mm D, 0.05 mm A."""
         case = TEMPLATES / "gas-bed/case.toml"
+        bubbles = {"B": "B bubbles above u_mf: ", "D": "D bubbles above u_mf: ", "A": "A bubbles above u_mb, which exceeds u_mf: ", "C": None}
         for diameter, letter in (("0.5 mm", "B"), ("1.5 mm", "D"), ("0.05 mm", "A"), ("20 um", "C")):
             text = self.ends(DONE, "check", case, "--set", f"species.glass.diameter={diameter}").stdout
             self.assertIn(f"Geldart class {letter}\n", text)
+            self.assertEqual(re.findall(r"(?m)^ +(\w bubbles above .*: )", text), [bubbles[letter]] if bubbles[letter] else [])
+        self.assertIn("swings about its mean", self.ends(DONE, "explain", "Geldart").stdout)
 
     def test_what_is_numerics_is_behind_details(self):
         case = self.write("case.toml", small_bed("5 ms"))
