@@ -84,12 +84,12 @@ std::string expected_height(const core::Scene& scene, const BedOfCase& bed) {
                                   : ", up to the top of the column by " + bed.own.law +
                                         (overflows(scene, bed) ? ", over which solids leave" : "");
   if (bed.own.mixed) text += " in layers";
-  text += " (";
-  if (bed.own.mixed && *bed.own.mixed < top) text += fmt::format("{:.0f} mm if mixed, ", 1e3 * *bed.own.mixed);
   const bool lifted = !scene.walls.empty() && bed.settled > (1 + 1e-9) * scene.bed.static_height;
-  text += fmt::format("settled {:.0f} mm{}, column {:.0f} mm)", 1e3 * bed.settled,
+  text += fmt::format(" (settled {:.0f} mm{}, column {:.0f} mm", 1e3 * bed.settled,
                       lifted ? fmt::format(", {:.0f} mm without the walls inside", 1e3 * scene.bed.static_height) : "",
                       1e3 * top);
+  if (bed.own.mixed && *bed.own.mixed < top) text += fmt::format("; {:.0f} mm if mixed", 1e3 * *bed.own.mixed);
+  text += ")";
   if (bed.resting > 0) text += fmt::format("; layers still packed: {}", bed.resting);
   return text + (bed.turns_over ? "; an upper layer becomes denser than the one below: they mix or change places" : "");
 }

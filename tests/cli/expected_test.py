@@ -49,7 +49,7 @@ class Expected(Scratch):
         both = self.expected(FILTER)
         self.assertLess(both["bed_height_mixed_m"], both["bed_height_m"])
         text = self.ends(DONE, "check", self.write("bed.toml", FILTER)).stdout
-        self.assertRegex(text, r"expect +fluidised, about \d+ mm high by wen_yu in layers \(\d+ mm if mixed, settled 550 mm, column 1050 mm\)")
+        self.assertRegex(text, r"expect +fluidised, about \d+ mm high by wen_yu in layers \(settled 550 mm, column 1050 mm; \d+ mm if mixed\)")
         low, high = (float(x) for x in re.search(r"\n +(\d+) to (\d+) mm by laws of such beds", text).groups())
         self.assertTrue(low <= round(1e3 * both["bed_height_m"]) <= high)
         for step in both["expansion"]:  # the greatest velocity is that of a law whose bed is then so high
