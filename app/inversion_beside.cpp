@@ -115,7 +115,11 @@ std::string line_without_point(const core::Scene& scene, const closures::DragLaw
   const BinaryBed bed = binary_bed(scene);
   std::optional<std::size_t> upper;
   for (const double voidage : {0.45, 0.6, 0.75, 0.9}) {
-    const auto here = on_top_below(bed, law, {HUGE_VAL, voidage});  // the one that rests at the lower velocity
+    const double solids = bed.share[0] * bed.density[0] + bed.share[1] * bed.density[1],
+                 bulk = voidage * bed.fluid.density + (1 - voidage) * solids;
+    const bool first = bed.density[0] < bulk, second = bed.density[1] < bulk;  // float in it
+    const auto here = first != second ? std::optional<std::size_t>(first ? 0 : 1)
+                                      : on_top_below(bed, law, {HUGE_VAL, voidage});  // rests at the lower velocity
     if (!here || (upper && *upper != *here)) return "";
     upper = here;
   }
