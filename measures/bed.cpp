@@ -176,8 +176,10 @@ std::optional<double> bed_height_by_pressure(const Profile& profile) {
   if (!bed || !freeboard || bed->second == freeboard->second) return std::nullopt;
   // Two layers have two gradients: a line over both misses 0.072 of their difference, in units of the mean gradient, if
   // they meet in its middle. Where it misses 2 % of the drop, the height is 6 % off.
-  constexpr double most_missed = 0.02;
-  if (bed->error > most_missed * std::abs(bed->second) * (*high - *low)) return std::nullopt;
+  // Bubbles of one species make as large an error, but not always the same one.
+  constexpr double most_missed = 0.02, apart = 0.5;
+  const bool layered = mixing(profile).value_or(1) < apart;
+  if (layered && bed->error > most_missed * std::abs(bed->second) * (*high - *low)) return std::nullopt;
   const double crossing = (freeboard->first - bed->first) / (bed->second - freeboard->second);
   return crossing > 0 && crossing < top ? std::optional(crossing) : std::nullopt;
 }

@@ -23,8 +23,8 @@ namespace polybed::measures {
 
 /// Height, m, where two straight lines through the net pressure cross, as experiments report a bed's height: a least
 /// squares fit to slabs with centres between z_0.10 and z_0.80, and one to those above 1.1 bed_height. Empty if one fit
-/// has fewer than two slabs, if the lines do not cross in the column, or if the line of the bed misses its pressure by
-/// more than 2 % of the drop in the root mean square, as in a bed of two layers.
+/// has fewer than two slabs, if the lines do not cross in the column, or if the species are apart (mixing below
+/// 0.5) and the line of the bed misses its pressure by more than 2 % of the drop in the root mean square.
 [[nodiscard]] std::optional<double> bed_height_by_pressure(const Profile& profile);
 
 /// Height, m, of the centre of volume of a species; empty if the species is absent.

@@ -66,7 +66,7 @@ Table<Bed> bed_table() {
        of_profile(dense_height), also_profiles},
       {"bed_height_by_pressure", "m",
        "where two straight lines through p cross, by least squares over z_0.10 to z_0.80 and above 1.1 bed heights; "
-       "none if the first misses p by more than 2 % of the drop, as in two layers",
+       "none in layers whose p the first misses by more than 2 % of the drop",
        of_profile(bed_height_by_pressure), only_profiles},
       {"pressure_drop", "Pa",
        "net pressure at the bottom less that at the top, continued linearly from the outer two slabs, in the history "

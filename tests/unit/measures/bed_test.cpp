@@ -135,9 +135,13 @@ TEST(Measures, TheHeightByPressureIsWhereTheLinesCross) {
   for (std::size_t k = 0; k < p.slabs(); ++k) p.pressure.push_back(std::max(5.0, 105 - 1000 * p.centre(k)));
   ASSERT_TRUE(bed_height_by_pressure(p));
   EXPECT_NEAR(*bed_height_by_pressure(p), 0.1, 1e-12);  // rounding
-  for (std::size_t k = 0; k < p.slabs(); ++k)           // a second layer with a fifth of the gradient, above 0.05 m
-    p.pressure[k] = std::max({5.0, 15 - 200 * (p.centre(k) - 0.05), 65 - 1000 * p.centre(k)});
-  EXPECT_FALSE(bed_height_by_pressure(p));
+  const auto gradients = [](double z) { return std::max({5.0, 15 - 200 * (z - 0.05), 65 - 1000 * z}); };
+  for (std::size_t k = 0; k < p.slabs(); ++k) p.pressure[k] = gradients(p.centre(k));
+  EXPECT_TRUE(bed_height_by_pressure(p));  // of one species
+  Profile layers =
+      profile_of([](double z) { return step(z, 0, 0.05, 0.5); }, [](double z) { return step(z, 0.05, 0.1, 0.5); });
+  layers.pressure = p.pressure;
+  EXPECT_FALSE(bed_height_by_pressure(layers));  // the upper one with a fifth of the gradient
   p.pressure.clear();
   EXPECT_FALSE(bed_height_by_pressure(p));
 }
