@@ -47,7 +47,7 @@ bool extend_alike(const Opening& a, const Opening& b, const Box& box, std::size_
 
 /// Axis along which two holes of a face lie side by side and share an edge, or a part of it; 3: none.
 std::size_t axis_of_joint(const Opening& a, const Opening& b, const Box& box) {
-  if (!a.is_beside(b)) return 3;
+  if (a.axis != b.axis || a.side != b.side) return 3;
   const auto across = [&](std::size_t k) { return k != std::size_t(a.axis); };
   for (std::size_t k = 0; k < 3; ++k) {
     if (!across(k) || std::abs(gap(a, b, box, k)) > rounding * box.size[k]) continue;

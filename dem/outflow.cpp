@@ -22,13 +22,17 @@ Outflow::Outflow(const Box& box, const Materials& materials, std::vector<Opening
       exits_(std::move(exits)),
       greatest_diameter_(materials.greatest_diameter()) {}
 
-/// The one that a leaving particle is beyond, and nearest to across it.
+/// The one that a leaving particle is beyond, and nearest to across it; the number of exits if it is beyond none.
 std::size_t Outflow::exit_of(const Place& place) const {
   double least = std::numeric_limits<double>::infinity();
-  std::size_t found = 0;
+  std::size_t found = exits_.size();
   for (std::size_t n = 0; n < exits_.size(); ++n) {
     const Opening& exit = exits_[n];
     if (!(exit.outward(place.x) > exit.outward(exit.place))) continue;
+    if (exit.about) {  // the opposite side is as far from the axis
+      const double along = place.x[std::size_t(exit.axis)] - (*exit.about)[exit.axis == 0 ? 0 : 1];
+      if (!(exit.side == 0 ? along < 0 : along > 0)) continue;
+    }
     double aside = 0;
     for (std::size_t k = 0; k < 3; ++k) {
       if (k == std::size_t(exit.axis)) continue;
@@ -55,7 +59,8 @@ std::int64_t Outflow::count_leaving(const Model& model) {
     if (!takes(particles.place[i])) continue;
     const auto j = std::size_t(particles.species[i]);
     ++leave[j];
-    if (!exits_.empty()) ++leave[(1 + exit_of(particles.place[i])) * number.size() + j];
+    if (const std::size_t exit = exit_of(particles.place[i]); exit < exits_.size())
+      ++leave[(1 + exit) * number.size() + j];
   }
   core::add_over_ranks(model.ranks(), leave);
   const std::int64_t leaving =

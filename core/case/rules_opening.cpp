@@ -191,9 +191,9 @@ Broken ports_beside_their_side(const Scene& scene, const std::vector<Part>& part
     const bool fits =
         !part.from.empty() && part.from[0] >= beside * (1 - 1e-9) && part.to[0] <= (diameter - beside) * (1 + 1e-9);
     if (!fits)
-      broken.add(
-          {std::string(name_of(part.at)), fmt::format("{:.4g}", beside), fmt::format("{:.4g}", diameter - beside)},
-          entry_of(scene, parts, n));
+      broken.add({std::string(name_of(part.at)), fmt::format("{:g}", 1e-6 * std::ceil(1e6 * beside)),
+                  fmt::format("{:g}", 1e-6 * std::floor(1e6 * (diameter - beside)))},
+                 entry_of(scene, parts, n));
   }
   return broken;
 }

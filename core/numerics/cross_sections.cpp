@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <iterator>
 #include <limits>
 #include <map>
 #include <numbers>
@@ -356,9 +355,10 @@ CrossSection section_with_ducts(const Sections& sections, const Ducts& ducts, co
   return std::move(layer.open);
 }
 
-/// Open shares of faces that lie between two layers: those of `common`, without the cells that one of both closes.
-std::vector<double> level_with_ducts(const CrossSection& common, const CrossSection& below, const CrossSection& above) {
-  std::vector<double> open = common.volume;
+/// Open shares of faces that lie between two layers: those of the circle, without the cells that one of both closes. A
+/// duct that is several layers high is no shaft beside the column.
+std::vector<double> level_with_ducts(const CrossSection& circle, const CrossSection& below, const CrossSection& above) {
+  std::vector<double> open = circle.volume;
   const double all = std::accumulate(open.begin(), open.end(), 0.0);
   for (std::size_t c = 0; c < open.size(); ++c)
     if (!(below.volume[c] > 0 && above.volume[c] > 0)) open[c] = 0;
@@ -435,11 +435,8 @@ std::vector<CrossSection> cross_sections_with_ducts(const Grid& column, const Du
   chosen.emplace_back();
   std::vector<CrossSection> result;
   for (std::size_t n = 1; n < chosen.size(); ++n) {
-    Chosen common;
-    std::set_intersection(chosen[n - 1].begin(), chosen[n - 1].end(), chosen[n].begin(), chosen[n].end(),
-                          std::back_inserter(common));
     result.push_back(section(chosen[n]));
-    result.back().open_y = level_with_ducts(section(common), section(chosen[n - 1]), section(chosen[n]));
+    result.back().open_y = level_with_ducts(section({}), section(chosen[n - 1]), section(chosen[n]));
   }
   return result;
 }

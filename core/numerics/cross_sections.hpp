@@ -11,7 +11,7 @@ namespace polybed::core {
 [[nodiscard]] std::vector<CrossSection> cross_sections(const Grid& column, bool rings, const Taper& taper);
 
 /// Those of a cylinder with ducts to ports in its side, likewise one per layer and one for the top. Between two layers
-/// their common ducts are open.
+/// the circle is open.
 [[nodiscard]] std::vector<CrossSection> cross_sections_with_ducts(const Grid& column, const Ducts& ducts);
 
 /// Radius of a tapered column just above (side 1) or below (-1) a height, m.

@@ -76,6 +76,27 @@ class RoundHopper(Scratch):
         self.assertAlmostEqual(np.sum(slabs) * 0.05 / 25, 400 * np.pi / 6 * 1.5e-3**3 / (np.pi / 4 * 0.024**2), delta=1e-9)
         self.assertLess(history(directory)["bed_height_m"][-1], 5e-3)
 
+    def tube_with(self, name, *ports, opening=""):
+        """{port: kg of beads that left by it}, of a tube without a cone, by rectangles (at, from, to) in its wall."""
+        text = BED[:BED.index("[[wall]]")] + "".join(
+            f'[[discharge]]\nat = "{at}"\nfrom = {low}\nto = {high}\nsuperficial_velocity = "10 mm/s"\n' for at, low, high in ports
+        ) + BED[BED.index("[effects]"):].replace('opening = "9 mm"\n', opening)
+        _, directory = self.run_of(name, "--until", "0.2 s", text=text)
+        rows = history(directory)
+        return {key[:-9]: rows[key][-1] for key in rows if key.startswith(("discharge", "top")) and key.endswith("_beads_kg")}
+
+    def test_holes_on_opposite_sides_are_two(self):
+        """Each takes its beads, and rectangles that share an edge in the drawing of the sides are not one hole."""
+        low, high = [0.008, 0.001], [0.016, 0.011]
+        facing = self.tube_with("facing", ("left", low, high), ("right", low, high))
+        self.assertGreater(min(facing.values()), 0.3 * sum(facing.values()), facing)
+        above = self.tube_with("above", ("left", [0.008, 0.011], [0.016, 0.02]), ("right", low, high))
+        self.assertGreater(above["discharge2"], 0.5 * facing["discharge2"], (above, facing))
+
+    def test_what_falls_through_the_bottom_left_by_no_port(self):
+        ports = [(at, [0.008, 0.03], [0.016, 0.04]) for at in ("left", "right")]
+        self.assertEqual(set(self.tube_with("bottom", *ports, opening='opening = "9 mm"\n').values()), {0.0})
+
     def test_a_feed_enters_within_the_circle(self):
         feed = '[[feed]]\nspecies = "beads"\nat = "top"\nsuperficial_velocity = "20 mm/s"\nvelocity = "0.3 m/s"\n'
         record, _ = self.run_of("fed", "--until", "0.2 s", text=BED.replace("[effects]", feed + "[effects]"))
