@@ -152,8 +152,8 @@ TEST(RoundColumn, IsTheSameInBlocks) {
 }
 
 // A duct of four rows and one layer from the left, one of two rows and two layers from the back. The side of the box is
-// open to their rows alone, what is open leads to open cells, and levels have the area of the circle, where no duct
-// passes them.
+// open to their rows alone, what is open leads to open cells, and all levels have the area of the circle: a duct is no
+// shaft.
 TEST(RoundColumn, HasDuctsToItsPorts) {
   constexpr int cells = 12;
   Grid grid = grid_across(cells, 3);
@@ -177,8 +177,7 @@ TEST(RoundColumn, HasDuctsToItsPorts) {
       }
     });
   grid.metric = metric;
-  EXPECT_GT(open_faces_below(grid, 2), open_faces_below(grid, 0));
-  for (const int level : {0, 1, 3, 4})
+  for (int level = 0; level <= 4; ++level)
     EXPECT_NEAR(open_faces_below(grid, level) / (cells * cells), pi / 4, 1e-13) << level;
   EXPECT_GT(open_cells_of_layer(grid, 1), open_cells_of_layer(grid, 0));
   EXPECT_NEAR(open_cells_of_layer(grid, 3) / (cells * cells), pi / 4, 1e-13);
