@@ -116,8 +116,8 @@ bool Feeding::find_place(std::size_t n, const FeedStrip& strip, Place& place) {
       place.x[axes[d]] =
           feed.low[axes[d]] + (feed.high[axes[d]] - feed.low[axes[d]]) * core::uniform(seed_, sequence(n, d), index);
     if (feed.curved > 0) {
-      const double beside = place.x[2 - a] - feed.curved, within = feed.curved - hair * place.radius,
-                   from_axis = std::sqrt(within * within - beside * beside);
+      const double across = place.x[2 - a] - feed.curved, reach = feed.curved - hair * place.radius,
+                   from_axis = std::sqrt(reach * reach - across * across);
       place.x[a] = feed.curved + (side_of(feed.at) == 0 ? -from_axis : from_axis);
     }
     if (strip.has_room_for(place)) return true;

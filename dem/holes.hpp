@@ -22,7 +22,7 @@ struct Hole {
 [[nodiscard]] std::vector<Hole> holes_of(const core::Scene& scene, const Box& box);
 
 /// For particles that are counted where they leave: the rectangle of each discharge, and an open top. Empty if there
-/// are less than two.
+/// are fewer than two.
 [[nodiscard]] std::vector<Opening> exits_of(const core::Scene& scene, const Box& box);
 
 /// Pairs of discharges, from 0, whose rectangles share a part of an edge: a particle there would meet the rims of both.

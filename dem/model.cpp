@@ -17,9 +17,10 @@ namespace polybed::dem {
 namespace {
 
 /// Only where each particle meets the same walls wherever it goes, and images rest.
-std::optional<Company> company_of(const Box& box, const Materials& materials, double reach, std::size_t particles) {
+std::optional<RelativeMotion> relative_motion_of(const Box& box, const Materials& materials, double reach,
+                                                 std::size_t particles) {
   if (!box.plates.empty() || !box.openings.empty() || box.shear_rate != 0) return {};
-  return Company(box, materials.greatest_diameter(), reach, particles);
+  return RelativeMotion(box, materials.greatest_diameter(), reach, particles);
 }
 
 const core::Scene& fitting(const core::Scene& scene) {
@@ -46,9 +47,10 @@ Model::Model(const core::Scene& scene, core::Timers& timers, std::shared_ptr<con
       torque_unit_(torque_unit(force_unit_, materials_)),
       held_(scene.bed.held),
       skin_(skin_of(scene, materials_)),
-      company_(company_of(box_, materials_, thickest_skin * skin_ + laws_.reach(), start_.size())),
+      relative_motion_(relative_motion_of(box_, materials_, thickest_skin * skin_ + laws_.reach(), start_.size())),
       verlet_(limits_.synchronised, limits_.dt, gravity_, force_unit_, torque_unit_, box_.shear_rate),
-      search_(box_, materials_, skin_ + laws_.reach(), (company_ ? company_->far() : skin_) + laws_.reach()),
+      search_(box_, materials_, skin_ + laws_.reach(),
+              (relative_motion_ ? relative_motion_->far() : skin_) + laws_.reach()),
       pair_forces_(box_, materials_, laws_, force_unit_, torque_unit_, scene.dem.max_overlap),
       exchange_(box_, ranks_, skin_ + laws_.reach(), 0.5 * materials_.greatest_diameter()) {
   pairs_.memory_size = walls_.memory_size = laws_.memory_size() + (scene.dem.ledger ? Ledger::memory_size(laws_) : 0);
@@ -143,7 +145,7 @@ void Model::step(double stop) {
   if (ahead_ == Ahead::stale || ahead_ == Ahead::fast) {
     const auto scope = timers_.scope("neighbours");
     const bool fast = ahead_ == Ahead::fast;
-    if (!fast) suit_skin();
+    if (!fast) adapt_skin();
     rebuild();
     if (fast) shorten_step();
   }

@@ -11,11 +11,11 @@
 #include "core/output/checkpoint.hpp"
 #include "core/timers.hpp"
 #include "dem/box.hpp"
-#include "dem/contacts/company.hpp"
 #include "dem/contacts/contacts.hpp"
 #include "dem/contacts/materials.hpp"
 #include "dem/contacts/neighbours.hpp"
 #include "dem/contacts/pair_forces.hpp"
+#include "dem/contacts/relative_motion.hpp"
 #include "dem/coupling/affine_drag.hpp"
 #include "dem/coupling/coupling.hpp"
 #include "dem/effects.hpp"
@@ -155,7 +155,7 @@ class Model : public core::Simulation {
   [[nodiscard]] double time_of_next() const { return double(steps_ + 1 - marked_at_) * limits_.dt; }
   [[nodiscard]] bool list_goes_stale(double drift, double since) const;
   bool keeps_list();
-  void suit_skin();
+  void adapt_skin();
   void set_skin(double skin);
   [[nodiscard]] bool may_shorten() const;
   void shorten_step();
@@ -192,11 +192,11 @@ class Model : public core::Simulation {
   std::unique_ptr<Coupling> coupling_;   ///< with the fluid
   std::vector<KeptPart*> kept_;          ///< the existing parts among those above
   Around around_;
-  bool held_;                                 ///< the particles do not move
-  static constexpr double thickest_skin = 5;  ///< of that at the start
-  double skin_;                               ///< of the present list, m
-  std::optional<Company> company_;            ///< absent: the list ends with the farthest particle
-  double free_ = 0;                           ///< displacement since the mark that the list allows, m
+  bool held_;                                      ///< the particles do not move
+  static constexpr double thickest_skin = 5;       ///< of that at the start
+  double skin_;                                    ///< of the present list, m
+  std::optional<RelativeMotion> relative_motion_;  ///< absent: the particle that moves furthest ends the list
+  double allowed_drift_ = 0;                       ///< displacement since the mark that the list allows, m
   Verlet verlet_;
   NeighbourSearch search_;
   PairForces pair_forces_;

@@ -26,13 +26,13 @@ std::vector<std::int32_t> work_of(const Particles& particles, const Contacts& pa
 bool Model::list_goes_stale(double drift, double since) const {
   // Two particles can approach from both sides, and a sheared box moves one faster than the other.
   const double flow = std::abs(box_.shear_rate) * since * (materials_.greatest_diameter() + skin_ + laws_.reach());
-  return !(2 * drift + flow <= 2 * free_);
+  return !(2 * drift + flow <= 2 * allowed_drift_);
 }
 
-/// A thicker skin after a list of few steps, a thinner one after one of many: a list costs as much as several steps, a
-/// pair listed in vain costs in each of them.
-void Model::suit_skin() {
-  if (!company_ || scene_.dem.skin) return;
+/// Makes the skin thicker after a list that lasted for few steps and thinner after one that lasted for many: making a
+/// list costs as much as several steps, and each pair that is listed but does not touch costs time in every step.
+void Model::adapt_skin() {
+  if (!relative_motion_ || scene_.dem.skin) return;
   constexpr std::int64_t few = 20, many = 80;
   constexpr double change = 1.25;
   const std::int64_t lasted = steps_ - marked_at_;
@@ -46,18 +46,18 @@ void Model::set_skin(double skin) {
   skin_ = skin;
   const double reach = skin + laws_.reach();
   exchange_.set_reach(reach);
-  search_.set_reach(reach, (company_ ? company_->far() : skin) + laws_.reach());
+  search_.set_reach(reach, (relative_motion_ ? relative_motion_->far() : skin) + laws_.reach());
 }
 
-/// Whether neighbours have stayed together though some particle has moved far: then displacements count from here on.
-/// Collective.
+/// Whether neighbours have stayed together although some particle has moved far. If so, displacements are measured from
+/// the present places on. Collective.
 bool Model::keeps_list() {
-  if (!company_) return false;
+  if (!relative_motion_) return false;
   const auto scope = timers_.scope("neighbours");
-  const Company::Moved moved = company_->since(particles_, ranks_.get());
-  free_ = std::min(0.5 * (skin_ - moved.apart), company_->far() - moved.most);
-  constexpr double worth_it = 0.1;  // of the skin: a smaller rest would soon be asked for again
-  if (!(free_ >= worth_it * skin_)) return false;
+  const RelativeMotion::Moved moved = relative_motion_->since(particles_, ranks_.get());
+  allowed_drift_ = std::min(0.5 * (skin_ - moved.apart), relative_motion_->far() - moved.most);
+  constexpr double worth_it = 0.1;  // of the skin: with less the next check would follow within a few steps
+  if (!(allowed_drift_ >= worth_it * skin_)) return false;
   verlet_.mark(particles_);
   return true;
 }
@@ -120,8 +120,8 @@ void Model::list_pairs(KeptContacts kept) {
   memories.recall(pairs_, particles_, false);
   memories.recall(walls_, particles_, true);
   verlet_.mark(particles_);
-  if (company_) company_->mark(particles_);
-  free_ = company_ ? std::min(0.5 * skin_, company_->far()) : 0.5 * skin_;
+  if (relative_motion_) relative_motion_->mark(particles_);
+  allowed_drift_ = relative_motion_ ? std::min(0.5 * skin_, relative_motion_->far()) : 0.5 * skin_;
   marked_at_ = steps_;
   ahead_ = Ahead::clear;
   ++work_.rebuilds;

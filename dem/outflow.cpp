@@ -53,8 +53,7 @@ std::int64_t Outflow::all() const { return std::accumulate(number.begin(), numbe
 /// integration error in the ledger.
 std::int64_t Outflow::count_leaving(const Model& model) {
   const Particles& particles = model.particles();
-  std::vector<std::int64_t> leave(number.size(), 0);
-  leave.resize((1 + exits_.size()) * number.size(), 0);
+  std::vector<std::int64_t> leave((1 + exits_.size()) * number.size(), 0);  // in all, then through each exit
   for (std::size_t i = 0; i < particles.owned; ++i) {
     if (!takes(particles.place[i])) continue;
     const auto j = std::size_t(particles.species[i]);

@@ -145,7 +145,7 @@ TEST(DemPeriodic, ZeroAndLengthAreOnePlace) {
   Beads beads(periodic_box({side, side, depth}), {{"a", {0, 0, 0}, {-1e-18, 0, 0.5}}});
   for (int n = 0; n < 4000; ++n) {
     beads.steps(1);
-    // Between rebuilds a particle may be outside by its radius: Company::far().
+    // Between rebuilds a particle may be outside by its radius: RelativeMotion::far().
     EXPECT_LE(std::abs(beads.place(0).x[2] - 0.5 * depth), 0.5 * depth + 0.5 * diameter);
     EXPECT_LE(std::abs(beads.place(0).x[0] - 0.5 * side), 0.5 * side + 0.5 * diameter);
   }

@@ -12,25 +12,25 @@
 
 namespace polybed::dem {
 
-/// The box in blocks. Particles in one block or in adjacent ones approach by no more than their displacements differ;
-/// others are too far apart to meet while none moves by more than far().
-class Company {
+/// Divides the box into blocks. Two particles in the same block or in adjacent ones approach each other by at most the
+/// difference of their displacements; all others cannot meet as long as none moves further than far().
+class RelativeMotion {
  public:
   /// \param diameter  the greatest, m  \param reach  of the longest pair effect plus the skin, m
-  /// \param particles  of all ranks: not many more blocks
-  Company(const Box& box, double diameter, double reach, std::size_t particles);
+  /// \param particles  number on all ranks; there are not many more blocks
+  RelativeMotion(const Box& box, double diameter, double reach, std::size_t particles);
 
   /// Stores the places of the owned particles when their list is made.
   void mark(const Particles& particles);
 
   /// Displacements since then, m.
   struct Moved {
-    double apart;  ///< upper bound of the approach of two particles that were less than far() from each other
-    double most;   ///< greatest of a particle
+    double apart;  ///< greatest difference between two particles in the same block or in adjacent ones
+    double most;   ///< greatest of one particle
   };
-  /// The same on any number of ranks, and collective. Without ranks NaN if a displacement is.
+  /// Collective; the same on any number of ranks. On one rank NaN if a displacement is NaN.
   [[nodiscard]] Moved since(const Particles& particles, const core::Ranks* ranks) const;
-  /// Displacement up to which only particles in adjacent blocks can meet, m.
+  /// Displacement up to which only particles in the same block or in adjacent ones can meet, m.
   [[nodiscard]] double far() const { return far_; }
 
  private:

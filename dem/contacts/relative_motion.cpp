@@ -1,4 +1,4 @@
-#include "dem/contacts/company.hpp"
+#include "dem/contacts/relative_motion.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,8 +8,8 @@ namespace polybed::dem {
 
 namespace {
 
-/// Greatest displacement along each axis in both directions: to the right of 0, and to the left of it with its sign
-/// changed, so that ranks need one greatest value each.
+/// Greatest displacement along each axis, then the least one with its sign changed: ranks need only the greatest
+/// values.
 using Extremes = std::array<double, 6>;
 
 /// Square of the greatest difference of displacements between two blocks, m2.
@@ -26,12 +26,10 @@ constexpr double nobody = -std::numeric_limits<double>::infinity();
 
 }  // namespace
 
-Company::Company(const Box& box, double diameter, double reach, std::size_t particles)
+RelativeMotion::RelativeMotion(const Box& box, double diameter, double reach, std::size_t particles)
     : joined_(box.periodic), far_(0.5 * diameter) {
   const double block = diameter + reach + 2 * far_;
-  for (std::size_t k = 0; k < 3; ++k) {
-    count_[k] = std::max(1, int(std::min(std::floor(box.size[k] / block), 1e3)));
-  }
+  for (std::size_t k = 0; k < 3; ++k) count_[k] = std::max(1, int(std::min(std::floor(box.size[k] / block), 1e3)));
   // Larger blocks are safe: a few small particles in a large box do not need many.
   while (double(count_[0]) * count_[1] * count_[2] > 1e3 + double(particles)) {
     int& most = *std::max_element(count_.begin(), count_.end());
@@ -40,9 +38,9 @@ Company::Company(const Box& box, double diameter, double reach, std::size_t part
   for (std::size_t k = 0; k < 3; ++k) inverse_[k] = count_[k] / box.size[k];
 }
 
-/// Particles beyond a face count to the outermost block, beyond joined ones to that of their image: two that are
-/// further apart than blocks stay so.
-std::int32_t Company::block_of(const Vector& x) const {
+/// A particle beyond a face belongs to the outermost block, one beyond a joined face to the block of its image: blocks
+/// that are not adjacent stay at least one block apart.
+std::int32_t RelativeMotion::block_of(const Vector& x) const {
   std::array<int, 3> at{};
   for (std::size_t k = 0; k < 3; ++k) {
     double block = std::floor(x[k] * inverse_[k]);
@@ -52,7 +50,7 @@ std::int32_t Company::block_of(const Vector& x) const {
   return (at[2] * count_[1] + at[1]) * count_[0] + at[0];
 }
 
-void Company::mark(const Particles& particles) {
+void RelativeMotion::mark(const Particles& particles) {
   marked_.resize(particles.owned);
   block_.resize(particles.owned);
   for (std::size_t i = 0; i < particles.owned; ++i) {
@@ -61,7 +59,7 @@ void Company::mark(const Particles& particles) {
   }
 }
 
-Company::Moved Company::since(const Particles& particles, const core::Ranks* ranks) const {
+RelativeMotion::Moved RelativeMotion::since(const Particles& particles, const core::Ranks* ranks) const {
   const auto blocks = std::size_t(count_[0]) * std::size_t(count_[1]) * std::size_t(count_[2]);
   std::vector<Extremes> moved(blocks + 1, {nobody, nobody, nobody, nobody, nobody, nobody});
   double most = 0;

@@ -1,5 +1,5 @@
 // How far neighbours have moved relative to each other, by hand, and that a list kept for it misses no contact.
-#include "dem/contacts/company.hpp"
+#include "dem/contacts/relative_motion.hpp"
 
 #include <gtest/gtest.h>
 
@@ -23,9 +23,9 @@ Box ten_blocks(bool joined) {
 }
 
 /// Bound after particles at x have moved along x and y.
-Company::Moved moved(bool joined, const std::vector<double>& x, const std::vector<std::array<double, 2>>& by) {
+RelativeMotion::Moved moved(bool joined, const std::vector<double>& x, const std::vector<std::array<double, 2>>& by) {
   const Box box = ten_blocks(joined);
-  Company company(box, 1, 0.1, x.size());
+  RelativeMotion motion(box, 1, 0.1, x.size());
   Particles particles;
   for (std::size_t i = 0; i < x.size(); ++i) {
     Particle p{};
@@ -34,17 +34,17 @@ Company::Moved moved(bool joined, const std::vector<double>& x, const std::vecto
     particles.add(p);
   }
   particles.owned = x.size();
-  company.mark(particles);
+  motion.mark(particles);
   for (std::size_t i = 0; i < x.size(); ++i) {
     particles.place[i].x[0] += by[i][0];
     particles.place[i].x[1] += by[i][1];
   }
-  return company.since(particles, nullptr);
+  return motion.since(particles, nullptr);
 }
 
 constexpr double round_off = 1e-14;  // of places up to 40
 
-TEST(Company, CountsWhatNeighboursMoveApart) {
+TEST(RelativeMotion, CountsWhatNeighboursMoveApart) {
   const auto [together, most] = moved(false, {1, 2, 4}, {{0.3, 0.4}, {0.3, 0.4}, {0.3, 0.4}});
   EXPECT_NEAR(together, 0, round_off);
   EXPECT_DOUBLE_EQ(most, 0.5);  // 3, 4, 5
@@ -54,7 +54,7 @@ TEST(Company, CountsWhatNeighboursMoveApart) {
   EXPECT_DOUBLE_EQ(moved(false, {1, 1.5, 2}, {{0.3, 0}, {0, 0.4}, {0, 0}}).apart, 0.5);
 }
 
-TEST(Company, LeavesOutParticlesThatAreFarFromEachOther) {
+TEST(RelativeMotion, LeavesOutParticlesThatAreFarFromEachOther) {
   EXPECT_EQ(moved(false, {1, 6}, {{0.3, 0}, {-0.3, 0}}).apart, 0);   // a block lies between them
   EXPECT_EQ(moved(false, {1, 24}, {{0.3, 0}, {-0.3, 0}}).apart, 0);  // at both ends
   EXPECT_NEAR(moved(true, {1, 24}, {{0.3, 0}, {-0.3, 0}}).apart, 0.6, round_off);
@@ -62,7 +62,7 @@ TEST(Company, LeavesOutParticlesThatAreFarFromEachOther) {
   EXPECT_NEAR(moved(false, {-40, 30, 24}, {{0, 0}, {0.2, 0}, {0, 0}}).apart, 0.2, round_off);
 }
 
-TEST(Company, ReportsThatAPlaceIsNoNumber) {
+TEST(RelativeMotion, ReportsThatAPlaceIsNoNumber) {
   EXPECT_TRUE(std::isnan(moved(false, {1, 2}, {{std::nan(""), 0}, {0, 0}}).most));
   EXPECT_TRUE(std::isnan(moved(false, {1, 2}, {{0, 0}, {0, std::nan("")}}).most));
 }
@@ -91,7 +91,7 @@ core::Scene streaming() {
   return scene;
 }
 
-TEST(Company, KeepsAListThatMissesNoContact) {
+TEST(RelativeMotion, KeepsAListThatMissesNoContact) {
   core::Timers timers;
   Model model(streaming(), timers);
   std::vector<Kick> kicks(model.particles().size());
