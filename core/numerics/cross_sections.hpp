@@ -10,8 +10,8 @@ namespace polybed::core {
 /// \param column  all of it, as wide as its largest diameter  \param rings  about the low end along x
 [[nodiscard]] std::vector<CrossSection> cross_sections(const Grid& column, bool rings, const Taper& taper);
 
-/// Those of a cylinder with ducts to ports in its side, likewise one per layer and one for the top. Between two layers
-/// the circle is open.
+/// The same for a cylinder with ducts to ports in its side: one per layer and one for the top. Between layers only the
+/// circle is open, so a duct several layers high is no shaft.
 [[nodiscard]] std::vector<CrossSection> cross_sections_with_ducts(const Grid& column, const Ducts& ducts);
 
 /// Radius of a tapered column just above (side 1) or below (-1) a height, m.
