@@ -46,9 +46,8 @@ std::string sum_note(const core::Scene& scene, const std::string& named) {
   const bool helps =
       core::is_law(better) && relevance::is_mean_law(named) && survey.mixture_part > scene.chooser.tolerance;
   return fmt::format(
-      "drag = \"{}\" acts on each species by itself: in a mixture the sum of the drags is not that of the pressure "
-      "drop, "
-      "which is therefore not exact{}",
+      "drag = \"{}\" acts on each species by itself: in a mixture the sum of the drags is not that of the "
+      "pressure drop, which is therefore not exact{}",
       named, helps ? fmt::format("; take partition = \"{}\"", better) : "");
 }
 

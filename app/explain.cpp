@@ -153,16 +153,9 @@ std::vector<Meaning> meanings_of(const std::string& word, std::vector<std::strin
     names.push_back(term.name);
     if (word == term.name) found.push_back(meaning_of(term));
   }
-  const dem::Parts all{.ledger = true,
-                       .outflow = true,
-                       .fluid = true,
-                       .feeding = true,
-                       .compressible = true,
-                       .open_sides = true,
-                       .exits = {"discharge1"}};
   add_measures(measures::bed_table(), word, found, names);
-  add_measures(tfm::history_table(true, true, true, {"discharge1"}), word, found, names);
-  add_measures(dem::history_table(all), word, found, names);
+  add_measures(tfm::whole_history_table(), word, found, names);
+  add_measures(dem::whole_history_table(), word, found, names);
   return found;
 }
 

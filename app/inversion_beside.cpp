@@ -95,13 +95,12 @@ std::string lines_of(const InversionBeside& beside) {
 bool suits_point(const std::string& name, const closures::DragLaw& law, const BinaryBed& bed,
                  const InversionPoint& point) {
   using relevance::DragScene;
-  constexpr std::string_view for_comparison = "syamlal";
   const bool gas = bed.fluid.density < relevance::lightest_liquid;
   const DragScene kind = gas ? DragScene::gas_bed : DragScene::liquid_bed;
   const std::vector<std::string> of_beds = relevance::laws_of_beds(kind);
   if (std::find(of_beds.begin(), of_beds.end(), name) != of_beds.end()) return true;
   const bool crowded = relevance::unsuited(name, kind).empty() || relevance::unsuited(name, DragScene::fixed).empty();
-  if (name == for_comparison || !crowded) return false;
+  if (relevance::serves_comparison(name) || !crowded) return false;
   closures::GuardCount count;
   double f = 0, slope = 0;
   const double diameter = closures::sauter_diameter(bed.share, bed.diameter),

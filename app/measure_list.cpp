@@ -36,17 +36,10 @@ std::vector<Line> lines_of(const measures::Table<Source>& table) {
 }
 
 std::vector<Section> sections() {
-  const dem::Parts all{.ledger = true,
-                       .outflow = true,
-                       .fluid = true,
-                       .feeding = true,
-                       .compressible = true,
-                       .open_sides = true,
-                       .exits = {"discharge1"}};
   return {{"bed", "Of a bed", lines_of(measures::bed_table())},
           {"distances", "Of a profile and another one", lines_of(measures::distance_table())},
-          {"tfm", "Of a run of the two-fluid model", lines_of(tfm::history_table(true, true, true, {"discharge1"}))},
-          {"dem", "Of a run of particles", lines_of(dem::history_table(all))}};
+          {"tfm", "Of a run of the two-fluid model", lines_of(tfm::whole_history_table())},
+          {"dem", "Of a run of particles", lines_of(dem::whole_history_table())}};
 }
 
 std::string as_code(const std::string& text) { return text.empty() ? "" : "`" + text + "`"; }

@@ -57,4 +57,14 @@ measures::Table<Told> history_table(const Parts& parts) {
   return table;
 }
 
+measures::Table<Told> whole_history_table() {
+  return history_table({.ledger = true,
+                        .outflow = true,
+                        .fluid = true,
+                        .feeding = true,
+                        .compressible = true,
+                        .open_sides = true,
+                        .exits = {"discharge1"}});
+}
+
 }  // namespace polybed::dem

@@ -31,5 +31,7 @@ struct Parts {
 
 /// The columns after the bed's.
 [[nodiscard]] measures::Table<Told> history_table(const Parts& parts);
+/// All of them, for a list; the first discharge stands for every way out.
+[[nodiscard]] measures::Table<Told> whole_history_table();
 
 }  // namespace polybed::dem

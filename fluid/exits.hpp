@@ -9,7 +9,7 @@
 
 namespace polybed::fluid {
 
-/// "discharge1", "discharge2", ..., "top"; empty if there are less than two.
+/// "discharge1", "discharge2", ..., "top"; empty if there are fewer than two.
 [[nodiscard]] std::vector<std::string> names_of_exits(const core::Scene& scene);
 
 class Exits {

@@ -34,7 +34,6 @@ double volume_of(const Profile& profile) {
 
 Value centre_of(const Bed& bed, Members species) {
   if (bed.centre.empty()) {
-    constexpr double trace = 1e-9;  // of all solids: what rounding leaves of a species that has left
     const Profile one = merged(bed.profile, species);
     return volume_of(one) > trace * volume_of(bed.profile) ? centre(one, 0) : Value();
   }

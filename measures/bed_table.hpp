@@ -6,6 +6,9 @@
 
 namespace polybed::measures {
 
+/// Share of all solids below which a species is what rounding leaves of one that has left.
+inline constexpr double trace = 1e-9;
+
 /// A bed at one time.
 struct Bed {
   Profile profile = {};

@@ -123,9 +123,9 @@ void warn_of_absolute_pressure(const core::Scene& scene, double density, Lines& 
   for (std::size_t n = 0; n < scene.discharges.size(); ++n)
     if (const double pressure = scene.discharges[n].pressure.value_or(0); std::abs(pressure) > most)
       warnings.push_back(fmt::format(
-          "discharge.pressure = {:g} Pa of [[discharge]] number {} exceeds {:.3g} Pa, which the column weighs per area "
-          "when it is full, and drives the fluid {} with up to {:.3g} m/s: it is relative to the fluid at rest, 0 for "
-          "an overflow; from an absolute pressure subtract the pressure at the top and that of the fluid below it",
+          "discharge.pressure = {:g} Pa of [[discharge]] number {} exceeds {:.3g} Pa, the weight of the full column "
+          "over its area, and drives the fluid {} with up to {:.3g} m/s: it is relative to the fluid at rest, 0 for an "
+          "overflow; from an absolute pressure subtract the pressure at the top and that of the fluid below it",
           pressure, n + 1, most, pressure > 0 ? "in" : "out", std::sqrt(2 * std::abs(pressure) / density)));
 }
 

@@ -21,6 +21,7 @@ constexpr std::array of_held_spheres{"cello"sv,          "vbk"sv, "vbk_theory"sv
                                      "brinkman_oseen"sv, "hkl"sv};
 constexpr std::array of_suspensions{"wen_yu"sv, "di_felice"sv, "richardson_zaki"sv};
 constexpr std::array of_dilute_suspensions{"batchelor"sv};
+constexpr std::array for_comparison{"syamlal"sv};
 
 template <class List>
 bool is_among(const List& list, const std::string& law) {
@@ -87,6 +88,8 @@ std::string unsuited(const std::string& law, DragScene kind) {
     return law + " is made for suspended spheres, not for packed ones";
   return "";
 }
+
+bool serves_comparison(const std::string& law) { return is_among(for_comparison, law); }
 
 bool ignores_neighbours(const std::string& law) { return is_among(of_one_sphere, law); }
 

@@ -30,6 +30,9 @@ struct AdvisedDrag {
 /// Laws derived from beds of a kind, for comparison with the law of a case; empty for lone and fixed spheres.
 [[nodiscard]] std::vector<std::string> laws_of_beds(DragScene kind);
 
+/// Whether a law is there to compare others with: its drags on the species do not add up to that of the bed.
+[[nodiscard]] bool serves_comparison(const std::string& law);
+
 /// Why a law does not suit; empty if it does, or if nothing is known about it, as about a fitted law.
 [[nodiscard]] std::string unsuited(const std::string& law, DragScene kind);
 

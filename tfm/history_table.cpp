@@ -36,4 +36,6 @@ measures::Table<Told> history_table(bool compressible, bool openings, bool open_
   return table;
 }
 
+measures::Table<Told> whole_history_table() { return history_table(true, true, true, {"discharge1"}); }
+
 }  // namespace polybed::tfm

@@ -27,5 +27,7 @@ struct Told {
 /// \param exits         as of fluid::names_of_exits()
 [[nodiscard]] measures::Table<Told> history_table(bool compressible, bool openings, bool open_sides,
                                                   const std::vector<std::string>& exits);
+/// All of them, for a list; the first discharge stands for every way out.
+[[nodiscard]] measures::Table<Told> whole_history_table();
 
 }  // namespace polybed::tfm

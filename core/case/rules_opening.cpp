@@ -181,18 +181,18 @@ Broken rings_in_a_narrow_part(const Scene& scene, const std::vector<Part>& parts
 /// Finds ports in the side of a cylinder that do not lie in the quarter of the wall on that side. One without corners
 /// is the whole side.
 template <class Part>
-Broken ports_beside_their_side(const Scene& scene, const std::vector<Part>& parts) {
+Broken ports_off_their_side(const Scene& scene, const std::vector<Part>& parts) {
   Broken broken;
   if (!scene.column.is_round() || scene.column.given_size.size() != 3) return broken;
-  const double diameter = scene.column.given_size[0], beside = 0.5 * (1 - std::sqrt(0.5)) * diameter;
+  const double diameter = scene.column.given_size[0], margin = 0.5 * (1 - std::sqrt(0.5)) * diameter;
   for (std::size_t n = 0; n < parts.size(); ++n) {
     const Part& part = parts[n];
     if (!is_side(part.at) || (!part.from.empty() && (part.from.size() != 2 || part.to.size() != 2))) continue;
     const bool fits =
-        !part.from.empty() && part.from[0] >= beside * (1 - 1e-9) && part.to[0] <= (diameter - beside) * (1 + 1e-9);
+        !part.from.empty() && part.from[0] >= margin * (1 - 1e-9) && part.to[0] <= (diameter - margin) * (1 + 1e-9);
     if (!fits)
-      broken.add({std::string(name_of(part.at)), fmt::format("{:g}", 1e-6 * std::ceil(1e6 * beside)),
-                  fmt::format("{:g}", 1e-6 * std::floor(1e6 * (diameter - beside)))},
+      broken.add({std::string(name_of(part.at)), fmt::format("{:g}", 1e-6 * std::ceil(1e6 * margin)),
+                  fmt::format("{:g}", 1e-6 * std::floor(1e6 * (diameter - margin)))},
                  entry_of(scene, parts, n));
   }
   return broken;
@@ -239,7 +239,7 @@ std::vector<Rule> place_rules(const std::string& table, std::vector<Part> Scene:
       {{at, from, to, "column.shape", "column.size"},
        at + " = \"{}\" in a cylinder: " + from + " and " + to +
            " lie between {} and {} m across, where the wall faces that side: a part of the next side takes the rest",
-       [parts](const Scene& scene) { return ports_beside_their_side(scene, scene.*parts); }},
+       [parts](const Scene& scene) { return ports_off_their_side(scene, scene.*parts); }},
       {{at, "wall.thickness", "column.shape", "fluid.name"},
        at + " = \"{}\" in a cylinder and [[wall]] in a fluid cannot be combined yet: leave out one of them",
        [parts](const Scene& scene) {

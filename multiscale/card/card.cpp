@@ -306,7 +306,8 @@ std::vector<std::string> expectation_lines(const core::Scene& scene, const BedOf
   }
   if (bed.discharge) add_discharge(*bed.discharge, lines);
   if (!bed.discharge && scene.dem.opening && !scene.walls.empty())
-    lines.push_back(card_line("expect", "discharge not estimated: Beverloo's law has no walls inside but a cone"));
+    lines.push_back(
+        card_line("expect", "discharge not estimated: Beverloo's law knows no walls inside, apart from a cone"));
   add_velocities(bed, true, lines);
   if (!bed.masses.empty()) lines.push_back(card_line("solids", masses_text(bed.masses)));
   if (bed.rising_time) {

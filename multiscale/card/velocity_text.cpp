@@ -7,6 +7,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "measures/bed_table.hpp"
 #include "multiscale/card/card.hpp"
 
 namespace polybed::multiscale {
@@ -118,10 +119,10 @@ std::string mass_text(double mass) { return mass < 1 ? with_prefix(1e3 * mass, "
 
 std::string masses_text(const std::vector<std::pair<std::string, double>>& masses) {
   std::vector<std::string> parts;
-  constexpr double trace = 1e-9;  // of all solids: what rounding leaves of a species that has left
   double all = 0;
   for (const auto& [name, mass] : masses) all += mass;
-  for (const auto& [name, mass] : masses) parts.push_back(name + " " + mass_text(mass > trace * all ? mass : 0));
+  for (const auto& [name, mass] : masses)
+    parts.push_back(name + " " + mass_text(mass > measures::trace * all ? mass : 0));
   return each(parts);
 }
 
