@@ -144,7 +144,7 @@ class ResolveRun {
           fmt::format("{}: no boxes to resume from; leave out --resume to begin anew", directory_.string()));
     if (!options_.resume) remove_kept_boxes(directory_);
     std::string kept = fmt::format("box,cells,change,imbalance,steps,sites,seconds, then n{} of each species, check\n",
-                                   free_ ? ", f, u, v and w" : " and f");
+                                   free_ ? ", f, u, v and w, then its pairs" : " and f");
     if (options_.resume) read_finished(path, kept);
     core::write_atomically(path, kept, core::Flush::content);
   }
@@ -236,9 +236,11 @@ class ResolveRun {
       }
       const std::string row = row_text(scene_, begin->point.voidage, begin->point.reynolds, drags);
       table_ += row + "\n";
+      if (free_) pairs_ += pair_text(scene_, begin->point.voidage, drags);
       in_rows_ += of_row;
       if (!first_) continue;
       core::write_atomically(directory_ / "rows.csv", table_);
+      if (free_) core::write_atomically(directory_ / "pairs.csv", pairs_);
       if (!options_.json) core::print("{}\n", row);
     }
   }
@@ -294,7 +296,7 @@ class ResolveRun {
   SpherePacking spheres_;
   std::pair<double, int> spheres_of_{0, -1};  ///< voidage and packing
   std::size_t in_rows_ = 0;                   ///< boxes whose rows are written
-  std::string table_;
+  std::string table_, pairs_ = pair_header() + "\n";
   std::chrono::steady_clock::time_point said_;  ///< initially long ago, so that the first line comes at once
   double done_ = 0, seconds_ = 0;
 };

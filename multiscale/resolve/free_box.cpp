@@ -72,7 +72,8 @@ FreeBox<Real>::FreeBox(const core::Scene& scene, const ResolvePoint& point, cons
                nullptr, dem::FluidBy::caller, resolved_gap / plan_.scale),
       flow_(flow_setup(plan_, true),
             lattice::Spheres(spheres_at(spheres_.particles(), plan_.scale), flow_setup(plan_, true).box)),
-      sums_(scene.species.size()) {
+      sums_(scene.species.size()),
+      pairs_(pair_distribution(scene, point.voidage)) {
   const double density = relevance::fluid_constants(scene.fluid).density;
   for (const core::Species& s : scene.species) {
     Body body;
@@ -192,6 +193,10 @@ void FreeBox<Real>::sample() {
     sums_.of[j].across += 0.5 * (std::pow(v[1] - mean[j][1], 2) + std::pow(v[2] - mean[j][2], 2)) / count_[j];
   }
   ++sums_.samples;
+  std::vector<std::size_t> species(particles.owned);
+  for (std::size_t i = 0; i < particles.owned; ++i)
+    species[std::size_t(particles.id[i])] = std::size_t(particles.species[i]);
+  pairs_.add(spheres_at(particles, 1), species);
 }
 
 template <class Real>
@@ -211,6 +216,7 @@ BoxDrag FreeBox<Real>::means() const {
     drag.along.push_back(std::sqrt(of.along / sums_.samples));
     drag.across.push_back(std::sqrt(of.across / sums_.samples));
   }
+  drag.pairs = pairs_.mean();
   return drag;
 }
 
@@ -221,6 +227,7 @@ core::Checkpoint FreeBox<Real>::state() const {
   std::vector<double>& sums = state.arrays["sums"];
   sums = {sums_.samples, sums_.steps, sums_.push};
   for (const OfSpecies& of : sums_.of) sums.insert(sums.end(), {of.slip, of.force, of.along, of.across});
+  state.arrays["pairs"] = pairs_.sums();
   return state;
 }
 
@@ -234,6 +241,7 @@ void FreeBox<Real>::restore(const core::Checkpoint& state) {
   sums_.samples = sums.at(0);
   sums_.steps = sums.at(1);
   sums_.push = sums.at(2);
+  pairs_.restore(state.array("pairs"));
   for (std::size_t j = 0; j < sums_.of.size(); ++j)
     sums_.of[j] = {sums.at(3 + 4 * j), sums.at(4 + 4 * j), sums.at(5 + 4 * j), sums.at(6 + 4 * j)};
 }

@@ -8,6 +8,7 @@
 #include "dem/model.hpp"
 #include "multiscale/resolve/box_drag.hpp"
 #include "multiscale/resolve/lattice/flow.hpp"
+#include "multiscale/resolve/pair_distribution.hpp"
 
 namespace polybed::multiscale {
 
@@ -22,11 +23,14 @@ class FreeBox {
   void let_walls_follow();
   /// Resets the mean density and rebuilds the list of neighbours, as a resumed box does: both then have the same bits.
   void begin_window();
-  /// Adds the present velocities to the means.
+  /// Adds the present velocities and places to the means.
   void sample();
   /// Means of the samples and forces since forget().
   [[nodiscard]] BoxDrag means() const;
-  void forget() { sums_ = Sums(sums_.of.size()); }
+  void forget() {
+    sums_ = Sums(sums_.of.size());
+    pairs_.forget();
+  }
 
   /// Along x, in lattice units: of liquid and spheres together; the sum of the magnitudes over the spheres.
   struct Momentum {
@@ -68,6 +72,7 @@ class FreeBox {
   dem::Model spheres_;
   lattice::Flow<Real> flow_;
   Sums sums_;
+  PairDistribution pairs_;
 };
 
 /// Means over the last two thirds of the simulated time. Throws as box_drag().

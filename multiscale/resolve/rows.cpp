@@ -13,6 +13,7 @@
 #include "core/error.hpp"
 #include "core/output/rows.hpp"
 #include "measures/time_mean.hpp"
+#include "multiscale/resolve/pair_distribution.hpp"
 #include "relevance/fluid_properties.hpp"
 
 namespace polybed::multiscale {
@@ -161,12 +162,29 @@ std::string row_text(const core::Scene& scene, double voidage, double reynolds, 
   return text;
 }
 
+std::string pair_header() { return "eps,Re,j,k,r,g,g_se"; }
+
+std::string pair_text(const core::Scene& scene, double voidage, const RowBoxes& boxes) {
+  const std::vector<PairDistribution::Shell> shells = pair_distribution(scene, voidage).shells();
+  for (const auto& grids : boxes)
+    if (grids[0][0].pairs.size() != shells.size()) return "";
+  const double reynolds = reynolds_of_slip(scene, shares_of(scene, sphere_numbers(scene)), boxes);
+  std::string text;
+  for (std::size_t n = 0; n < shells.size(); ++n) {
+    const RowValue g = row_value(boxes, [&](const std::vector<BoxDrag>& parts) { return parts[0].pairs.at(n); });
+    text += fmt::format("{:g},{:.6g},{},{},{:.2f},{},{}\n", voidage, reynolds, shells[n].j + 1, shells[n].k + 1,
+                        shells[n].middle, cell(g.mean), cell(g.error));
+  }
+  return text;
+}
+
 std::string box_text(const BoxDrag& box) {
   std::string text =
       fmt::format("{},{},{},{},{},{}", box.cells, box.change, box.imbalance, box.steps, box.sites, box.seconds);
   for (std::size_t j = 0; j < box.net.size(); ++j)
     for (const auto column : columns_of(box.slip.empty() ? SphereMotion::held : SphereMotion::free))
       text += fmt::format(",{}", (box.*column)[j]);
+  for (const double g : box.pairs) text += fmt::format(",{}", g);
   return text;
 }
 
@@ -179,7 +197,8 @@ BoxDrag box_of_text(const std::string& text, const core::Scene& scene) {
   }
   constexpr std::size_t before = 6;
   const auto columns = columns_of(scene.resolve.motion);
-  if (numbers.size() != before + columns.size() * scene.species.size()) return {};
+  const std::size_t end = before + columns.size() * scene.species.size();
+  if (numbers.size() < end || (numbers.size() > end && scene.resolve.motion != SphereMotion::free)) return {};
   BoxDrag box;
   box.cells = numbers[0];
   box.change = numbers[1];
@@ -187,8 +206,8 @@ BoxDrag box_of_text(const std::string& text, const core::Scene& scene) {
   box.steps = numbers[3];
   box.sites = numbers[4];
   box.seconds = numbers[5];
-  for (std::size_t n = before; n < numbers.size(); ++n)
-    (box.*columns[(n - before) % columns.size()]).push_back(numbers[n]);
+  for (std::size_t n = before; n < end; ++n) (box.*columns[(n - before) % columns.size()]).push_back(numbers[n]);
+  box.pairs.assign(numbers.begin() + std::ptrdiff_t(end), numbers.end());
   return box;
 }
 

@@ -31,6 +31,11 @@ using RowBoxes = std::vector<std::vector<std::vector<BoxDrag>>>;
 [[nodiscard]] std::string row_header(const core::Scene& scene);
 [[nodiscard]] std::string row_text(const core::Scene& scene, double voidage, double reynolds, const RowBoxes& boxes);
 
+/// Header and lines eps,Re,j,k,r,g,g_se of a row of free spheres: the pair distribution of species j and k at the
+/// distance r over that at contact. Nothing where boxes have none.
+[[nodiscard]] std::string pair_header();
+[[nodiscard]] std::string pair_text(const core::Scene& scene, double voidage, const RowBoxes& boxes);
+
 /// What the standard errors of rows over so many packings are worth: a 95 % interval from four on, as of all means.
 [[nodiscard]] std::string interval_text(int packings);
 

@@ -118,4 +118,34 @@ TEST(FreeBox, RowsHaveSlipAndItsReynoldsNumbers) {
   EXPECT_EQ(row_header(scene),
             "eps,Re,x1,D1,u_1,u_1_se,f_1,v_1,w_1,packings,resolution,spheres,imbalance,cell_Re,u_1_grid");
   EXPECT_EQ(row_text(scene, 0.8, 0, boxes), "0.8,9,1.00000000,0.0015,0.03,0.01,2.5,0.001,0.002,2,8,27,0,1.41,");
+  EXPECT_EQ(pair_text(scene, 0.8, boxes), "");
+  // Half of the edge, 6.20 mm, is 2.07 diameters: ten shells.
+  boxes[0][0][0].pairs.assign(10, 1.5);
+  boxes[1][0][0].pairs.assign(10, 2.5);
+  EXPECT_THAT(pair_text(scene, 0.8, boxes), testing::StartsWith("0.8,9,1,1,1.05,2,0.5\n0.8,9,1,1,1.15,2,0.5\n"));
+  EXPECT_EQ(box_of_text(box_text(boxes[1][0][0]), scene).pairs, boxes[1][0][0].pairs);
+}
+
+// A cube of edge 10: two spheres of radius 1/2 meet across its sides at 1.05, one of radius 1 is 1.93 from the first,
+// 1.29 of the distance at contact. One pair of one in a shell of 4/3 pi (1.1^3 - 1) = 1.38649, one of two in a shell
+// of 4/3 pi 1.5^3 (1.3^3 - 1.2^3) = 6.63033; points at random would have 1.38649/1000 and 2 6.63033/1000.
+// The other pair of two is at 2.197, 1.465 of contact: 4/3 pi 1.5^3 (1.5^3 - 1.4^3) = 8.92055.
+TEST(FreeBox, PairDistributionIsThatOfPointsTimesItself) {
+  PairDistribution pairs({0.5, 1}, {2, 1}, 10);
+  const std::vector<lattice::Sphere> spheres{{{0.5, 0, 0}, 0.5}, {{9.45, 0, 0}, 0.5}, {{0.5, 1.93, 0}, 1}};
+  pairs.add(spheres, {0, 0, 1});
+  pairs.add(spheres, {0, 0, 1});
+  ASSERT_EQ(pairs.shells().size(), 40);  // to 3: no pair of two large spheres
+  std::vector<double> g = pairs.mean();
+  EXPECT_NEAR(g[0], 1 / 1.38649e-3, 1e-5 / 1.38649e-3);
+  EXPECT_NEAR(g[20 + 2], 1 / 13.26066e-3, 1e-5 / 13.26066e-3);
+  EXPECT_NEAR(pairs.shells()[22].middle, 1.25, 1e-12);
+  EXPECT_NEAR(g[20 + 4], 1 / 17.84110e-3, 1e-5 / 17.84110e-3);
+  g[0] = g[22] = g[24] = 0;
+  EXPECT_THAT(g, testing::Each(0.0));
+  PairDistribution again({0.5, 1}, {2, 1}, 10);
+  again.restore(pairs.sums());
+  EXPECT_EQ(again.mean(), pairs.mean());
+  again.forget();
+  EXPECT_THAT(again.mean(), testing::Each(0.0));
 }
