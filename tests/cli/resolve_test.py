@@ -206,6 +206,8 @@ class Resolve(Scratch):
             self.assertGreater(float(row[f"u_{j}"]), 0)
             self.assertGreater(float(row[f"v_{j}"]), 0)
         self.assertLess(float(row["imbalance"]), 1e-4)  # single precision
+        pairs = (self.out / "pairs.csv").read_text()
+        self.assertEqual({(line["j"], line["k"]) for line in csv.DictReader(pairs.splitlines())}, {("1", "1"), ("1", "2"), ("2", "2")})
         self.out = self.folder / "stopped"
         running = self.start("resolve", self.case, "-o", self.out, "--quiet", *words, "--set", 'resolve.checkpoint_every="1 ms"')
         wait_until(running, lambda: list(self.out.glob("box-*.h5")))
@@ -213,6 +215,7 @@ class Resolve(Scratch):
         running.communicate(timeout=LONGEST)
         self.assertEqual(running.returncode, STOPPED)
         self.assertEqual(self.on_ranks(2, "-o", self.out, "--resume", *words), text)
+        self.assertEqual((self.out / "pairs.csv").read_text(), pairs)
 
     def test_json_names_the_table(self):
         answer = strict_json(self.resolve("--json", "--set", "resolve.reynolds=[0]", "--set", "resolve.packings=1").stdout)
