@@ -48,16 +48,21 @@ def measured():
             for name in ("height_m", "pressure_Pa")}
 
 
+def layers(field):
+    """[depth][height][width], one layer deep in two dimensions."""
+    return field.reshape(-1, *field.shape[-2:])
+
+
 def probe(run, steps):
-    """Net pressure in the middle at the height of the probe, Pa, linear between cells."""
+    """Net pressure in the middle at the height of the probe, mean over the depth, Pa, linear between cells."""
     x, y = (0.5 * (run.faces[a][1:] + run.faces[a][:-1]) for a in "xy")
     columns = np.argsort(abs(x - x.mean()))[: 2 - len(x) % 2]
-    return np.array([np.interp(PROBE, y, run.pressure[int(n)][:, columns].mean(axis=1)) for n in steps])
+    return np.array([np.interp(PROBE, y, layers(run.pressure[int(n)])[..., columns].mean(axis=(0, 2))) for n in steps])
 
 
 def top(run, steps):
     """Top of the highest cell with more solids than DENSE, m."""
-    return np.array([run.faces["y"][1:][(1 - run.voidage[int(n)] > DENSE).any(axis=1)].max() for n in steps])
+    return np.array([run.faces["y"][1:][(1 - layers(run.voidage[int(n)]) > DENSE).any(axis=(0, 2))].max() for n in steps])
 
 
 def simulated(run, after):
