@@ -10,7 +10,8 @@ from scipy.special import ndtr, stdtrit
 from polybed.ending import NUMBERS, StudyError
 from polybed.solids_table import AXES, SolidsTable
 
-SCATTER_SEEDS = 3  # from so many seeds on their scatter alone is the error of their mean; points that scatter get more seeds
+SCATTER_SEEDS = 3  # from so many seeds on their scatter alone is the error of their mean
+LEAST_SEEDS = 2  # of each point of a plan whose points get more seeds where they scatter: one says nothing of scatter
 MOST_SEEDS = 10  # of a point
 GREATEST_RESIDUAL = 0.05  # of a fit that can be used, and the greatest standard error of its points
 AGREEMENT = 0.05  # what both measures of the pressure of a bed can differ by
@@ -117,7 +118,7 @@ def relative_errors(table):
 
 def add_seeds(plan, table):
     """Adds a seed at each point that scatters too much and has fewer than MOST_SEEDS, if seeds are to be added; whether there is one."""
-    if min(plan.seeds) < SCATTER_SEEDS:
+    if min(plan.seeds) < LEAST_SEEDS:
         return False
     more = [error > GREATEST_RESIDUAL and seeds < MOST_SEEDS for error, seeds in zip(relative_errors(table), plan.seeds)]
     plan.seeds = [seeds + one for seeds, one in zip(plan.seeds, more)]

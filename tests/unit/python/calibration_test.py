@@ -98,7 +98,10 @@ class Seeds(unittest.TestCase):
         fit.require_usable(table, [])
         plan.seeds[3] = fit.MOST_SEEDS
         self.assertFalse(fit.add_seeds(plan, scattered))
-        self.assertFalse(fit.add_seeds(plan_of(), fit.fitted(plan_of(), synthetic(plan_of(), 0.2))), "two seeds are no wish to know")
+        two, one = plan_of(seeds=2), plan_of(seeds=1)
+        self.assertTrue(fit.add_seeds(two, fit.fitted(two, synthetic(two, 0.2))), "the default plan gets more seeds too")
+        self.assertEqual(set(two.seeds), {3})
+        self.assertFalse(fit.add_seeds(one, fit.fitted(one, synthetic(one, 0.2))), "a single box says nothing of scatter")
 
 
 class Fits(unittest.TestCase):
