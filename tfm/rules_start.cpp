@@ -67,7 +67,7 @@ Broken packing_below_onset(const Scene& scene) {
 }
 
 Broken bed_below_onset(const Scene& scene) {
-  const double fraction = scene.bed.solids_fraction;
+  const double fraction = core::loosest_settled(scene);
   const std::optional<double> most = packing_of(scene, scene.bed.volume_share);
   if (!most || !has_rule(scene, core::PackingRule::automatic) || !(fraction > 0)) return {};
   if (fraction > scene.tfm.frictional_onset && !is_below_onset(scene, *most)) return {};
@@ -162,9 +162,9 @@ std::vector<core::Rule> stress_rules() {
   return {
       {packing_keys({"tfm.max_packing", "tfm.frictional_onset"}),
        "tfm.max_packing = {} must lie above tfm.frictional_onset = {}", packing_below_onset},
-      {packing_keys({"bed.solids_fraction", "tfm.max_packing", "tfm.frictional_onset"}),
-       "bed.solids_fraction = {} must lie above tfm.frictional_onset = {} for tfm.max_packing = \"auto\"; lower the "
-       "onset",
+      {packing_keys({"bed.solids_fraction", "layer.solids_fraction", "tfm.max_packing", "tfm.frictional_onset"}),
+       "solids_fraction = {} of the settled bed, or of a layer, must lie above tfm.frictional_onset = {} for "
+       "tfm.max_packing = \"auto\"; lower the onset",
        bed_below_onset},
       {packing_keys({"tfm.max_packing", "bed.solids_fraction", "tfm.frictional_onset"}),
        "tfm.max_packing = \"auto\": the bed is too light to be held at bed.solids_fraction; give a number, e.g. 0.64",

@@ -176,6 +176,12 @@ SettledFractions settled_fractions(const Scene& scene) {
   return settled;
 }
 
+double loosest_settled(const Scene& scene) {
+  double loosest = scene.bed.solids_fraction;
+  for (const Layer& layer : scene.layers) loosest = std::min(loosest, settled_fraction_of(scene, layer));
+  return loosest;
+}
+
 void fill_layers(Scene& scene) {
   Bed& bed = scene.bed;
   double densest = 0;

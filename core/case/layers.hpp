@@ -61,6 +61,9 @@ struct SettledFractions {
 /// \pre as of totals_of_layers; without layers all are bed.solids_fraction
 [[nodiscard]] SettledFractions settled_fractions(const Scene& scene);
 
+/// Solids fraction of the loosest settled part: of the bed and of each layer.
+[[nodiscard]] double loosest_settled(const Scene& scene);
+
 /// Fills in volume_share and solids_fraction of each layer and, where the case gives none, of the bed: volume_share,
 /// static_height (of the same solids over the whole cross-section) and solids_fraction (of the densest layer).
 /// \pre the keys of the layers are sound

@@ -52,6 +52,15 @@ void fill_gravity(Column& column) {
   for (std::size_t d = 0; d < 3; ++d) column.down[d] = along[d] / length;
 }
 
+/// Solids press on each other below the loosest settled bed, or nothing could carry it.
+void fill_onset(Scene& scene) {
+  constexpr double share = 0.9;  // of that bed
+  const auto* rule = std::get_if<PackingRule>(&scene.tfm.max_packing);
+  const double loosest = loosest_settled(scene);
+  if (scene.places.has("tfm.frictional_onset") || rule == nullptr || *rule != PackingRule::automatic) return;
+  if (loosest > 0 && loosest <= scene.tfm.frictional_onset) scene.tfm.frictional_onset = share * loosest;
+}
+
 void fill_inlet(Scene& scene) {
   Inlet& inlet = scene.inlet;
   if (inlet.flow_rate.empty() || !inlet.superficial_velocity.empty()) return;
@@ -153,6 +162,7 @@ void resolve(Scene& scene, const std::string& case_name, WrongKeys& wrong) {
   }
   fill_from_layers(scene, wrong);
   bed.start_solids_fraction = bed.start_fraction.value_or(bed.solids_fraction);
+  fill_onset(scene);
 }
 
 }  // namespace polybed::core

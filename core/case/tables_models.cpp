@@ -34,7 +34,8 @@ Table tfm_table() {
           key(&Tfm::frictional_pressure, "frictional_pressure", dimension::pressure, above(0, 1e6), help("Fr"),
               equation("p_f = Fr (phi - phi_min)^2/(phi_max - phi)^5")),
           key(&Tfm::frictional_onset, "frictional_onset", above(0, 0.9),
-              help("phi_min, above which solids press on each other"),
+              help("phi_min, above which solids press on each other; default with max_packing = \"auto\" and a bed or "
+                   "layer settled to at most 0.5: 0.9 of the loosest"),
               equation("p_f = Fr (phi - phi_min)^2/(phi_max - phi)^5")),
           key(&Tfm::bulk_viscosity, "bulk_viscosity", range(0, 10),
               help("alpha; damps elastic waves of the packed bed; 0 is off; default: 1 over the number of directions "
@@ -190,7 +191,7 @@ Table calibrate_table() {
                    "of the bed")),
           key(&Calibrate::particles, "particles", range(100, 1e6), help("of a box")),
           key(&Calibrate::seeds, "seeds", range(1, 100),
-              help("boxes at each point, with other random starts; from 3 on a point of a sheared table gets up to 10, "
+              help("boxes at each point, with other random starts; from 2 on a point of a sheared table gets up to 10, "
                    "while its standard error exceeds 5 %")),
           key(&Calibrate::strain, "strain", range(1, 1e4), help("over which a box is averaged, in 20 blocks")),
           key(&Calibrate::discard_strain, "discard_strain", range(0, 1e4), help("before that")),

@@ -3,7 +3,7 @@
 import math
 
 import program
-from program import DONE, Scratch, history, small_bed, strict_json
+from program import DONE, WRONG_CASE, Scratch, history, small_bed, strict_json
 
 AMOUNT = 'volume_share = [0.8, 0.2]\nstatic_height = "12 mm"\n'
 # Over 10 mm x 5 mm: 6 mm of coarse beads, on the left half of them 4 mm of fine ones.
@@ -49,6 +49,15 @@ class Layers(Scratch):
         self.assertEqual(again, resolved)
         for command in ("effects", "estimate"):
             self.ends(DONE, command, case)
+
+    def test_a_layer_and_a_bed_can_settle_to_a_half(self):
+        """The frictional pressure then begins at 0.9 of the loosest; a given onset is refused for both."""
+        layered = self.write("half.toml", in_layers("1 ms").replace("solids_fraction = 0.55", "solids_fraction = 0.5"))
+        bed = self.write("bed.toml", small_bed("1 ms").replace("solids_fraction = 0.6", "solids_fraction = 0.5"))
+        for case in (layered, bed):
+            self.assertIn("frictional_onset = 0.45\n", strict_json(self.ends(DONE, "check", case, "--json").stdout)["case"])
+            refused = self.ends(WRONG_CASE, "tfm", case, "--set", "tfm.frictional_onset=0.5").stderr
+            self.assertIn("solids_fraction = 0.5 of the settled bed, or of a layer, must lie above tfm.frictional_onset = 0.5", refused)
 
     def test_a_run_starts_from_a_checkpoint_of_the_same_bed(self):
         case = self.write("case.toml", in_layers("1 ms"))

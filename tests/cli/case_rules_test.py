@@ -245,7 +245,7 @@ BROKEN = {
         "tfm.form=B", "fluid.equation_of_state=tait"],
     'tfm.max_packing = "fedors_landel" is for two species; yu_standish is for any number': ["tfm.max_packing=fedors_landel"],
     "tfm.max_packing = {} must lie above tfm.frictional_onset = {}": ["tfm.max_packing=0.4"],
-    'bed.solids_fraction = {} must lie above tfm.frictional_onset = {} for tfm.max_packing = "auto"; lower the onset': ["bed.solids_fraction=0.45"],
+    'solids_fraction = {} of the settled bed, or of a layer, must lie above tfm.frictional_onset = {} for tfm.max_packing = "auto"; lower the onset': ["bed.solids_fraction=0.45", "tfm.frictional_onset=0.5"],
     "tfm.max_packing = {}: the bed at its start, with a solids fraction of {}, lies more than {} above; lower bed.start_solids_fraction": [
         "bed.solids_fraction=0.68", "tfm.max_packing=0.64"],
     'tfm.max_packing = "auto": the bed is too light to be held at bed.solids_fraction; give a number, e.g. 0.64': [
