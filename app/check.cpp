@@ -110,7 +110,10 @@ Derived derive(const core::Scene& scene, const tfm::Model& model) {
 std::string weight_text(const core::Scene& scene, const BedOfCase& bed, double weight) {
   std::string is = weight < 0 ? "upwards in the fluid" : "in the fluid: the pressure drop of the fluidised bed";
   if (scene.column.is_tapered()) is = "in the fluid, settled; less once it expands into a wider part";
-  if (bed.lift) is = fmt::format("in the fluid over the bottom; pressure drop between the walls {:.4g} Pa", *bed.lift);
+  if (bed.lift && scene.column.is_tapered())
+    is = fmt::format("in the fluid, settled; pressure drop between that and {:.4g} Pa, if expanded evenly", *bed.lift);
+  else if (bed.lift)
+    is = fmt::format("in the fluid over the bottom; pressure drop between the walls {:.4g} Pa", *bed.lift);
   return fmt::format("{} Pa {}", plain(std::abs(weight), 4), is);
 }
 

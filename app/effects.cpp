@@ -134,7 +134,7 @@ std::string other_line(const relevance::EffectRow& row) {
 
 /// A sum of forces with its allowed value.
 std::string share_text(double sum, double allowed) {
-  return relevance::percent(sum) + (sum > allowed ? " (too much)" : "");
+  return share_of_weight(sum) + (sum > allowed ? " (too much)" : "");
 }
 
 std::string sums_text(const core::Scene& scene, const relevance::Choice& choice) {
@@ -159,7 +159,7 @@ std::string sums_text(const core::Scene& scene, const relevance::Choice& choice)
   if (choice.sum_up_to > choice.tolerance)
     text += indented(fmt::format("in a run up to {}, where the fluid is sheared within a cell or impacts spin "
                                  "particles; chooser.monitor = \"warn\" measures it",
-                                 relevance::percent(choice.sum_up_to)),
+                                 share_of_weight(choice.sum_up_to)),
                      2);
   return text;
 }
@@ -179,10 +179,9 @@ std::string cost_text(const core::Scene& scene, const relevance::Choice& choice,
 std::string line_for_case(Advice advice, const relevance::EffectRow& row, const std::string& cost) {
   const std::string law = row.state == State::on || advice == Advice::try_it ? row.model : "none";
   const std::string line = fmt::format("{}{} = \"{}\"", advice == Advice::add ? "" : "# ", row.effect, law);
-  const std::string open = row.band
-                               ? fmt::format("undecided: {} to {} of the weight", relevance::percent(row.band->least),
-                                             relevance::percent(row.band->most))
-                               : "";
+  const std::string open = row.band ? fmt::format("undecided: {} to {} of the weight", share_of_weight(row.band->least),
+                                                  share_of_weight(row.band->most))
+                                    : "";
   const std::string reason = (advice == Advice::try_it ? open : reason_text(row)) + cost,
                     beside = fmt::format("{:36}  # {}\n", line, reason);
   return beside.size() <= width + 1 ? beside : wrapped(reason, "# ") + line + "\n";

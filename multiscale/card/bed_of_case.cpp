@@ -12,6 +12,7 @@
 #include "core/case/layers.hpp"
 #include "measures/table.hpp"
 #include "multiscale/card/discharge.hpp"
+#include "multiscale/card/first_steady.hpp"
 #include "multiscale/card/layer_bed.hpp"
 #include "relevance/advised_drag.hpp"
 #include "relevance/drag_law.hpp"
@@ -82,15 +83,6 @@ Balance balance_of(const core::Scene& scene) {
   return balance;
 }
 
-/// Least time for the top of a packed bed to reach its expected height. \param lifting  of its first layer to lift, m/s
-std::optional<double> rising_time(const core::Scene& scene, const BedOfCase& bed, double settled, double lifting) {
-  constexpr double least = 1.02;  // ratio of heights: below it nothing rises
-  const double top = scene.column.size[1];
-  if (!bed.own.height || bed.state != Fluidisation::fluidised || *bed.own.height < least * settled) return {};
-  if (overflows(scene, bed)) return {};
-  return closures::rising_time(std::min(*bed.own.height, top) - settled, *bed.velocity, lifting);
-}
-
 /// Predicts the whole bed at the velocity of its inlet. \param share  of each species
 void expect(const core::Scene& scene, const Slices& slices, const Balance& balance, std::vector<double> share,
             const relevance::FluidConstants& fluid, double gravity, BedOfCase& bed) {
@@ -110,7 +102,7 @@ void expect(const core::Scene& scene, const Slices& slices, const Balance& balan
   const std::vector<LayerBed> layers = layers_of(scene, slices, share, fluid, gravity);
   const std::vector<double> lifting = lifting_velocities(balance, layers, *bed.own.minimum_fluidisation);
   const double first = *std::min_element(lifting.begin(), lifting.end());
-  bed.state = velocity < first ? packed : fluidised;
+  bed.state = velocity < first ? packed : bed.inlet && *bed.inlet < first ? partly_fluidised : fluidised;
   if (bed.state == fluidised)
     bed.resting =
         std::size_t(std::count_if(lifting.begin(), lifting.end(), [velocity](double one) { return one > velocity; }));
@@ -135,18 +127,23 @@ void expect(const core::Scene& scene, const Slices& slices, const Balance& balan
                                      : sum_over(layers, [&](const LayerBed& layer) {
                                          return layer.of(balance).packed_drop(layer.bed, velocity, layer.solids);
                                        });
-  if (const auto filled = fill_by(balance); filled && slices.between_walls && bed.state == fluidised)
+  if (const auto filled = fill_by(balance); filled && !slices.empty() && bed.state == fluidised) {
     bed.lift = filled->solids * bed_of_those.excess * gravity;
+    bed.top_heavy = scene.column.is_tapered() && slices.widens_to(filled->height);
+  }
   Balance other = balance;
   for (ByLaw& one : bed.others) {
     other.law = relevance::with_shape(relevance::drag_law_named(one.law), scene);
     set_height(other, one);
   }
-  const bool bubbles = fluid.density < relevance::lightest_liquid;
-  const bool packed_start = scene.bed.start_solids_fraction == scene.bed.solids_fraction;
-  if (!bubbles && packed_start && slices.empty())
-    bed.rising_time =
-        rising_time(scene, bed, layers.empty() ? solids / stays / (1 - balance.packed) : bed.settled, first);
+  const bool loose = layers.empty() && scene.bed.start_solids_fraction < scene.bed.solids_fraction;
+  const double at_start = 1 - scene.bed.start_solids_fraction, all = solids / stays;
+  const double start = !loose ? bed.settled
+                       : slices.empty()
+                           ? all / (1 - at_start)
+                           : height_of(fill(slices, all, [&](std::size_t) { return 1 - at_start; })).value_or(0);
+  const double carried = loose ? balance.minimum_fluidisation(bed_of_those, at_start).value_or(first) : first;
+  bed.steady = first_steady(scene, slices, bed, start, carried);
 }
 
 /// From the rows in docs/record/validation.md with this kind of bed.
@@ -324,7 +321,7 @@ Fluidisation carried(const core::Scene& scene) {
 bool is_carried(Fluidisation state) { return state == Fluidisation::carried_up || state == Fluidisation::carried_out; }
 
 std::string name_of(Fluidisation state) {
-  const char* names[] = {"", "packed", "fluidised", "carried_up", "carried_out"};
+  const char* names[] = {"", "packed", "fluidised", "carried_up", "carried_out", "partly_fluidised"};
   return names[std::size_t(state)];
 }
 

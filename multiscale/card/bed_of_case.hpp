@@ -9,8 +9,9 @@
 
 namespace polybed::multiscale {
 
-/// State of a bed in the fluid; unknown: there is no flow, or no bed.
-enum class Fluidisation { unknown, packed, fluidised, carried_up, carried_out };
+/// State of a bed in the fluid; unknown: there is no flow, or no bed. Partly fluidised: jets lift the solids on their
+/// path out of a bed that the rest of the flow leaves packed, as in a spouted bed.
+enum class Fluidisation { unknown, packed, fluidised, carried_up, carried_out, partly_fluidised };
 
 /// The state of solids that rise with the fluid: a screen at the top stops them, an open outlet does not.
 [[nodiscard]] Fluidisation carried(const core::Scene& scene);
@@ -59,6 +60,12 @@ struct ExpansionAt {
   double least, most;  ///< superficial, m/s
 };
 
+/// The least time, s, until a bed can be steady, and what takes it; without a time why none is foreseen.
+struct FirstSteady {
+  std::optional<double> least;
+  std::string why;
+};
+
 struct BedOfCase {
   std::vector<SpeciesInFluid> species;
   ByLaw own;                  ///< from the law of the case
@@ -72,14 +79,15 @@ struct BedOfCase {
   std::optional<double> velocity;                      ///< superficial, mean over the bottom at the end of the run, m/s
   std::optional<double> inlet;                         ///< of a case with jets: the inlet's own at that time, m/s
   double settled = 0;                                  ///< m, height of the settled bed, higher between walls inside
-  std::optional<double> lift;                          ///< Pa, pressure drop expected between walls inside, fluidised
-  std::optional<double> packed_drop;                   ///< Pa, pressure drop of the packed bed, by the law of the case
-  Fluidisation state{};                                ///< predicted
-  std::size_t resting = 0;                             ///< layers of a fluidised bed that are still packed
-  bool turns_over = false;                     ///< an upper layer has a greater bulk density than the one below it
-  std::vector<std::string> leaving;            ///< species that the fluid lifts out of a bed of the others
-  std::vector<ExpansionAt> expansion;          ///< of a bed in a liquid, as far as the height of the column allows
-  std::optional<double> rising_time;           ///< s, least time for the top of a packed bed in a liquid to rise
+  std::optional<double> lift;          ///< Pa, pressure drop expected, fluidised, where the cross-section changes
+  std::optional<double> packed_drop;   ///< Pa, pressure drop of the packed bed, by the law of the case
+  Fluidisation state{};                ///< predicted
+  std::size_t resting = 0;             ///< layers of a fluidised bed that are still packed
+  bool turns_over = false;             ///< an upper layer has a greater bulk density than the one below it
+  bool top_heavy = false;              ///< it is wider, and therefore denser, at its top than at the bottom
+  std::vector<std::string> leaving;    ///< species that the fluid lifts out of a bed of the others
+  std::vector<ExpansionAt> expansion;  ///< of a bed in a liquid, as far as the height of the column allows
+  FirstSteady steady;                  ///< of a bed in a flow
   std::optional<ExpectedDischarge> discharge;  ///< of dry particles with dem.opening
   std::string validity;                        ///< agreement of the models with measured beds of this kind
   [[nodiscard]] std::optional<double> velocity_ratio() const;

@@ -170,6 +170,18 @@ std::string bed_text(const BedOfRun& bed) {
   return each(parts);
 }
 
+/// When the bed of a case can be steady, and whether its run is too short for that.
+std::string first_steady_text(const core::Scene& scene, const FirstSteady& steady) {
+  constexpr double window = 0.75;  // part of a run before the last quarter, which its card uses
+  if (!steady.least)
+    return steady.why +
+           (steady.why.starts_with("no time") ? "; --until steady ends a run once its card says steady" : "");
+  std::string text = fmt::format("after {} at least: {}", short_time(*steady.least), steady.why);
+  if (window * scene.run.until < *steady.least)
+    text += fmt::format("; the run ends at {:.4g} s, too early: see --until steady", scene.run.until);
+  return text;
+}
+
 std::string steady_text(const BedOfRun& bed) {
   if (!bed.steady) return "not known: too few rows in history.csv";
   if (*bed.steady) return fmt::format("yes, over the last {:.3g} s", bed.window);
@@ -206,8 +218,8 @@ std::string computing_text(const TimeBand& time) {
 }
 
 std::string left_out_text(const LeftOut& left_out) {
-  const std::string rounded = relevance::percent(left_out.sum);
-  const bool alike = rounded == relevance::percent(left_out.promise) && matters(left_out);
+  const std::string rounded = share_of_weight(left_out.sum);
+  const bool alike = rounded == share_of_weight(left_out.promise) && matters(left_out);
   std::string text = "forces of " + (alike ? fmt::format("{:.3g} %", 100 * left_out.sum) : rounded) + " of the weight";
   if (!matters(left_out))
     return text + ", within the " + relevance::percent(left_out.promise) + " allowed: does not matter";
@@ -273,7 +285,7 @@ void write_expected(core::Json& json, const core::Scene& scene, const BedOfCase&
       {"by_shapes", by_laws(bed.shapes)},
       {"by_laws_of_beds", by_laws(bed.others)},
       {"leaving", bed.leaving},
-      {"rising_time_s", core::or_null(bed.rising_time)},
+      {"rising_time_s", core::or_null(bed.steady.least)},
       {"validity", core::text_or_null(bed.validity)},
       {"discharge_kg_s", bed.discharge ? core::Json(bed.discharge->rate) : core::Json()},
   });
@@ -293,8 +305,11 @@ std::vector<std::string> expectation_lines(const core::Scene& scene, const BedOf
     if (bed.inlet)
       lines.push_back(card_line(
           "", "as if the jets flowed evenly through the whole bottom: a jet moves only the solids on its path"));
+    if (bed.top_heavy)
+      lines.push_back(card_line(
+          "", "as if each level were even: wider above, the bed is denser there, turns over and stays lower"));
     const std::string others =
-        bed.own.height && bed.state == Fluidisation::fluidised ? by_others(bed, &ByLaw::height, top) : std::string();
+        bed.own.height && bed.state != Fluidisation::packed ? by_others(bed, &ByLaw::height, top) : std::string();
     if (!others.empty()) lines.push_back(card_line("", others));
   }
   if (!bed.expansion.empty()) {
@@ -310,14 +325,7 @@ std::vector<std::string> expectation_lines(const core::Scene& scene, const BedOf
         card_line("expect", "discharge not estimated: Beverloo's law knows no walls inside, apart from a cone"));
   add_velocities(bed, true, lines);
   if (!bed.masses.empty()) lines.push_back(card_line("solids", masses_text(bed.masses)));
-  if (bed.rising_time) {
-    constexpr double window = 0.75;  // part of a run before the last quarter, which its card uses
-    std::string text =
-        fmt::format("after {} at least: the top rises no faster than u - u_mf", short_time(*bed.rising_time));
-    if (window * scene.run.until < *bed.rising_time)
-      text += fmt::format("; the run ends at {:.4g} s, too early: see --until steady", scene.run.until);
-    lines.push_back(card_line("steady", text));
-  }
+  if (!bed.steady.why.empty()) lines.push_back(card_line("steady", first_steady_text(scene, bed.steady)));
   if (!bed.validity.empty())
     lines.push_back(card_line("validity", fmt::format("{}; {} validate --list", bed.validity, typed_program())));
   return lines;

@@ -16,6 +16,12 @@ struct Slices {
   bool between_walls = false;
 
   [[nodiscard]] bool empty() const { return height.empty(); }
+  /// Whether the column is wider at a height than at the bottom.
+  [[nodiscard]] bool widens_to(double top) const {
+    std::size_t n = 0;
+    for (double low = height[0]; low < top && n + 1 < height.size(); low += height[n]) ++n;
+    return even[n] / height[n] > even[0] / height[0] * (1 + 1e-9);
+  }
 };
 
 /// Empty for a column with one cross-section.

@@ -46,8 +46,8 @@ std::string with_bound(const LeftOutEffect& one) {
 /// The effect with its share of the weight; for uncertain effects a range.
 std::string with_share(const LeftOutEffect& one) {
   const bool by_band = one.row.band && one.row.band->most == *one.bound;
-  return fmt::format("{} {}{}", one.row.effect, by_band ? relevance::percent(one.row.band->least) + " to " : "",
-                     relevance::percent(*one.bound));
+  return fmt::format("{} {}{}", one.row.effect, by_band ? share_of_weight(one.row.band->least) + " to " : "",
+                     share_of_weight(*one.bound));
 }
 
 bool is_among(const std::vector<LeftOutEffect>& effects, const std::string& effect) {
@@ -82,6 +82,8 @@ std::string sum_text(const LeftOut& left_out) {
 }
 
 }  // namespace
+
+std::string share_of_weight(double bound) { return bound > 1 ? "over 100 %" : relevance::percent(bound); }
 
 LeftOut left_out(const core::Scene& scene, const std::string& model) {
   const relevance::Choice choice = choose(scene);
@@ -163,8 +165,10 @@ std::string called_for_line(const LeftOut& left_out) {
   const std::string drag = left_out.wrong_drag.empty() ? "" : "drag: " + left_out.wrong_drag;
   if (left_out.called_for.empty()) return drag;
   std::vector<std::string> named;
-  for (const LeftOutEffect& one : left_out.called_for)
-    named.push_back(one.bound.value_or(0) > 0 ? with_bound(one) : one.row.effect);
+  for (const LeftOutEffect& one : left_out.called_for) {
+    const bool is_share = one.row.summed || one.row.share_off;
+    named.push_back(!(one.bound.value_or(0) > 0) ? one.row.effect : is_share ? with_share(one) : with_bound(one));
+  }
   return fmt::format("{}{}off in the case, but needed: {}; see polybed effects", drag, drag.empty() ? "" : "; ",
                      fmt::join(named, ", "));
 }

@@ -37,6 +37,9 @@ struct LeftOut {
 /// Throws core::CaseError if the fluid is unknown at a temperature in the chooser's range.
 [[nodiscard]] LeftOut left_out(const core::Scene& scene, const std::string& model);
 
+/// A bound as a share of the weight: above the weight itself its number says nothing more.
+[[nodiscard]] std::string share_of_weight(double bound);
+
 /// The member "neglected" of an open object.
 void write_left_out(core::Json& json, const LeftOut& left_out);
 

@@ -147,8 +147,8 @@ def check(case: Place, overrides: Overrides | None = None, until: Value | None =
     """What to expect of a case, without a run. Printed, and shown by a notebook, it is the text of `polybed check`.
 
     Returns the dictionary of `polybed check --json` with the answers first, in SI units named as in a run's card:
-    "expected": "state" ("packed", "fluidised", "carried_up"), "bed_height_m", "u_mf_m_s", "terminal_m_s" and others; "expansion" has the
-    velocities at which the bed stands a share of 0.1, 0.3 and 0.5 higher than settled. See polybed.table for other velocities.
+    "expected": "state" ("packed", "fluidised", "partly_fluidised", "carried_up"), "bed_height_m", "u_mf_m_s", "terminal_m_s" and
+    others; "expansion" has the velocities at which the bed stands a share of 0.1, 0.3 and 0.5 higher than settled. See polybed.table for other velocities.
     "notes": warnings; "refused": why a model does not run it, empty if it does; "time" of computing; ...; "case": all keys, resolved
     """
     return Check(answer_of("check", case, *settings(overrides, until)))

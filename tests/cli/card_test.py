@@ -327,23 +327,6 @@ class Screen(Scratch):
         self.assertRegex(shown, r"(?m)^weight +1\d{4} Pa ")
         self.assertRegex(shown, r"(?m)^steady +after \d+ s at least")
 
-    def test_it_says_when_a_bed_can_be_steady(self):
-        """The top of a packed bed rises at u - u_mf: from 100 mm at 40 mm/s less the velocity that the card names."""
-        case = TEMPLATES / "liquid-bed/case.toml"
-        expected = strict_json(self.ends(DONE, "check", case, "--json").stdout)["expected"]
-        self.assertEqual(expected["law"], "richardson_zaki")
-        heights = [law["bed_height_m"] for law in expected["by_laws_of_beds"].values()]
-        self.assertTrue(min(heights) <= expected["bed_height_m"] <= max(heights), heights)
-        self.assertAlmostEqual(expected["rising_time_s"], (expected["bed_height_m"] - 0.1) / (0.04 - expected["u_mf_m_s"]["mixture"]), places=12)
-        fines = strict_json(self.ends(DONE, "check", ROOT / "cases/filter-backwash/case.toml", "--json").stdout)["expected"]
-        self.assertEqual(fines["leaving"], ["fines"])
-        # layers: of these the sand lifts first, between the velocities of its two sizes
-        lifting = 0.012 - (fines["bed_height_m"] - fines["settled_height_m"]) / fines["rising_time_s"]
-        self.assertTrue(fines["u_mf_m_s"]["sand.1"] < lifting < fines["u_mf_m_s"]["sand.2"], lifting)
-        told = [self.ends(DONE, "check", case, "--until", until).stdout for until in ("30 s", "1 s")]
-        self.assertRegex(told[0], r"(?m)^steady +after [\d.]+ s at least: the top rises no faster than u - u_mf$")
-        self.assertRegex(told[1], r"(?m)^steady +after .*; the run ends at 1 s, too early: see --until steady$")
-
     def test_the_validity_is_that_of_the_recorded_comparisons(self):
         rows = [row for block in strict_json((ROOT / "cases/validation/recorded.json").read_text())["blocks"] for row in block["rows"]]
         worst = {}

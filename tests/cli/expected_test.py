@@ -2,8 +2,12 @@
 """What polybed check expects of layers, weirs and hoppers. Usage: expected_test.py PROGRAM"""
 import re
 
+import numpy as np
+
 import program
-from program import DONE, FILTER, WRONG_CASE, Scratch, strict_json
+from program import DONE, FILTER, ROOT, WRONG_CASE, Scratch, strict_json
+
+TEMPLATES = ROOT / "cases/templates"
 
 ROUND = """[column]
 shape = "cylinder"
@@ -65,7 +69,7 @@ class Expected(Scratch):
         case, low = self.write("bed.toml", FILTER), ("--set", 'column.size=["50 mm", "600 mm"]', "--set", "column.cells=[1,60]")
         text = self.ends(DONE, "check", case, *low).stdout
         self.assertIn("up to the top of the column by wen_yu, over which solids leave", text)
-        self.assertNotRegex(text, r"(?m)^steady ")
+        self.assertRegex(text, r"(?m)^steady +no time foreseen: solids leave, or gather at the top; ")
         text = self.ends(DONE, "check", case, *low, "--set", "column.outlet=screen").stdout
         self.assertNotIn("solids leave", text)
         self.assertRegex(text, r"(?m)^steady ")
@@ -85,6 +89,72 @@ class Expected(Scratch):
         self.assertRegex(self.ends(DONE, "check", case, "--set", "dem.opening=12 mm").stdout, "4.8 particle diameters wide: below 5 it may block")
         other = self.write("other.toml", ROUND.replace('from = ["24 mm", "0 mm"]', 'from = ["60 mm", "0 mm"]').replace('"60 mm", "50', '"24 mm", "50'))
         self.assertRegex(self.ends(DONE, "check", other).stdout, "expect +discharge not estimated: ")
+
+
+class Steady(Scratch):
+    def test_it_says_when_a_bed_can_be_steady(self):
+        """The top of a packed bed rises at u - u_mf: from 100 mm at 40 mm/s less the velocity that the card names."""
+        case = TEMPLATES / "liquid-bed/case.toml"
+        expected = strict_json(self.ends(DONE, "check", case, "--json").stdout)["expected"]
+        self.assertEqual(expected["law"], "richardson_zaki")
+        heights = [law["bed_height_m"] for law in expected["by_laws_of_beds"].values()]
+        self.assertTrue(min(heights) <= expected["bed_height_m"] <= max(heights), heights)
+        self.assertAlmostEqual(expected["rising_time_s"], (expected["bed_height_m"] - 0.1) / (0.04 - expected["u_mf_m_s"]["mixture"]), places=12)
+        fines = strict_json(self.ends(DONE, "check", ROOT / "cases/filter-backwash/case.toml", "--json").stdout)["expected"]
+        self.assertEqual(fines["leaving"], ["fines"])
+        # layers: of these the sand lifts first, between the velocities of its two sizes
+        lifting = 0.012 - (fines["bed_height_m"] - fines["settled_height_m"]) / fines["rising_time_s"]
+        self.assertTrue(fines["u_mf_m_s"]["sand.1"] < lifting < fines["u_mf_m_s"]["sand.2"], lifting)
+        told = [self.ends(DONE, "check", case, "--until", until).stdout for until in ("30 s", "1 s")]
+        self.assertRegex(told[0], r"(?m)^steady +after [\d.]+ s at least: the top rises no faster than u - u_mf$")
+        self.assertRegex(told[1], r"(?m)^steady +after .*; the run ends at 1 s, too early: see --until steady$")
+
+    def test_it_says_when_a_bed_in_a_taper_can_be_steady(self):
+        """The tube widens from 30 to 60 mm over 200 mm: u = u_0/(1 + h/200 mm)^2, and dh/(u - u_mf) summed from 100 mm to the top of the bed.
+        The card sums slices of 2 mm of one width: within 2e-4. The expanded bed weighs on wider levels: its drop is less than the settled weight."""
+        case = TEMPLATES / "tapered-bed/case.toml"
+        found = strict_json(self.ends(DONE, "check", case, "--json").stdout)
+        expected, text = found["expected"], "\n".join(found["lines"])
+        fluidises, top = expected["u_mf_m_s"]["mixture"], expected["bed_height_m"]
+        height = np.linspace(0.1, top, 2001)
+        height = (height[1:] + height[:-1]) / 2
+        inlet = expected["u_over_u_mf"] * fluidises
+        time = np.mean(1 / (inlet / (1 + height / 0.2) ** 2 - fluidises)) * (top - 0.1)
+        self.assertAlmostEqual(expected["rising_time_s"] / time, 1, delta=2e-4)
+        self.assertRegex(text, r"(?m)^steady +after [\d.]+ s at least: the top rises no faster than u - u_mf$")
+        self.assertIn("wider above, the bed is denser there, turns over and stays lower", text)
+        settled, expanded = re.search(r"(?m)^weight +([\d.]+) Pa in the fluid, settled; pressure drop between that and ([\d.]+) Pa, if expanded evenly$", text).groups()
+        self.assertLess(float(expanded), 0.98 * float(settled))
+
+    def test_a_bed_that_starts_loose_rises_from_there(self):
+        """From 120 mm, at u less the velocity that carries solids of 0.5, which is u_mf of a bed that settles to 0.5."""
+        case = TEMPLATES / "liquid-bed/case.toml"
+        loose = strict_json(self.ends(DONE, "check", case, "--json", "--set", "bed.start_solids_fraction=0.5").stdout)
+        carried = strict_json(self.ends(DONE, "check", case, "--json", "--set", "bed.solids_fraction=0.5").stdout)["expected"]["u_mf_m_s"]["mixture"]
+        expected = loose["expected"]
+        self.assertAlmostEqual(expected["rising_time_s"], (expected["bed_height_m"] - 0.12) / (0.04 - carried), places=9)
+        self.assertIn("u less the velocity that carries the bed at its start", "\n".join(loose["lines"]))
+
+    def test_it_says_where_it_foresees_no_time(self):
+        for name, keys, text in (("gas-bed", [], "no time foreseen: the height swings as bubbles form and burst; --until steady ends a run once its card says steady"),
+                                 ("spouted-bed", [], "no time foreseen: a jet moves only the solids on its path; --until steady .*"),
+                                 ("liquid-bed", ["inlet.superficial_velocity=0.005"], "from the start: the bed stays packed"),
+                                 ("liquid-bed", ['inlet.superficial_velocity=[["0 s", "0 mm/s"], ["28 s", "40 mm/s"]]'],
+                                  "after 28 s at least: the inlet changes until then; the run ends at 30 s, too early: .*")):
+            shown = self.ends(DONE, "check", TEMPLATES / name / "case.toml", *(word for key in keys for word in ("--set", key))).stdout
+            self.assertRegex(shown, rf"(?m)^steady +{text}$")
+        elutriator = self.ends(DONE, "check", ROOT / "cases/elutriator/case.toml").stdout
+        self.assertRegex(elutriator, "(?m)^steady +no time foreseen: the solids that are lifted leave first; ")
+
+    def test_a_spouted_bed_is_partly_fluidised_before_and_after_its_run(self):
+        """Its inlet alone is below u_mf, its jet above."""
+        case = TEMPLATES / "spouted-bed/case.toml"
+        checked = strict_json(self.ends(DONE, "check", case, "--json").stdout)
+        self.assertEqual(checked["expected"]["state"], "partly_fluidised")
+        self.assertRegex("\n".join(checked["lines"]), r"(?m)^expect +partly fluidised, ")
+        self.assertNotRegex("\n".join(checked["lines"]), r"(?<!over )[1-9]\d\d %")  # of the weight
+        self.ends(DONE, "tfm", case, "--quiet", "--no-picture", "-o", self.folder / "spout")
+        self.assertEqual(strict_json((self.folder / "spout/run.json").read_text())["card"]["state"], "partly_fluidised")
 
 
 if __name__ == "__main__":

@@ -37,7 +37,7 @@ class Run(Scratch):
         for counter in ("steps", "rhs_evaluations", "linear_iterations"):
             self.assertGreater(record["work"][counter], 10, counter)
         self.assertTrue(all(i["held"] for i in record["invariants"]), record["invariants"])
-        self.assertEqual(record["warnings"], ["off in the case, but needed: fluid_stress 0.16; see polybed effects"])
+        self.assertEqual(record["warnings"], ["off in the case, but needed: fluid_stress 16 %; see polybed effects"])
         self.assertNotIn("last_steps", record)  # of a run that has failed
 
     def check_history(self, directory):

@@ -40,6 +40,12 @@ TEST(LeftOut, BoundsAForceThatTheCaseHasOff) {
   EXPECT_EQ(cohesion->why, "off in the case");
 }
 
+TEST(LeftOut, AShareAboveTheWeightHasNoNumber) {
+  EXPECT_EQ(share_of_weight(0.064), "6.4 %");
+  EXPECT_EQ(share_of_weight(1), "100 %");
+  EXPECT_EQ(share_of_weight(4.1), "over 100 %");
+}
+
 TEST(LeftOut, IsOfTheModelThatRuns) {
   const core::Scene scene = scene_of({"effects.magnus=rubinow_keller"});
   const LeftOut two_fluid = left_out(scene, "tfm"), particles = left_out(scene, "dem");
