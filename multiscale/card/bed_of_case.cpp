@@ -97,6 +97,7 @@ void expect(const core::Scene& scene, const Slices& slices, const Balance& balan
   if (!(stays > 0)) {
     bed.state = carried(scene);
     bed.leaving.clear();
+    bed.steady.why = "no time foreseen: the fluid carries all solids to the top";
     return;
   }
   const std::vector<LayerBed> layers = layers_of(scene, slices, share, fluid, gravity);
@@ -148,6 +149,8 @@ void expect(const core::Scene& scene, const Slices& slices, const Balance& balan
 
 /// From the rows in docs/record/validation.md with this kind of bed.
 std::string validity_of(const core::Scene& scene, bool gas) {
+  const std::string none = "no measured bed of this kind";
+  if (!scene.jets.empty() || !scene.walls.empty() || scene.column.is_tapered()) return none;
   if (gas)
     return "two measured gas beds by polybed tfm: the height of one comes out 12 % low, u_mf of the other 19 % high";
   if (scene.species.size() == 1)
@@ -155,7 +158,7 @@ std::string validity_of(const core::Scene& scene, bool gas) {
            "di_felice, 0.05 by wen_yu and cello";
   if (scene.species.size() == 2 && scene.species[0].density != scene.species[1].density)
     return "one measured liquid bed of two sizes: inverts at 31.2 mm/s by balance, 30 measured";
-  return "no measured bed of this kind";
+  return none;
 }
 
 /// Masses of the species at the start, kg; empty if the case does not give them.

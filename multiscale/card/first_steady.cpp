@@ -37,10 +37,10 @@ FirstSteady first_steady(const core::Scene& scene, const Slices& slices, const B
   if (std::any_of(inlet.begin(), inlet.end(), [&](const auto& one) { return one.second != inlet.front().second; }))
     return {inlet.back().first, "the inlet changes until then"};
   if (!scene.jets.empty()) return {{}, "no time foreseen: a jet moves only the solids on its path"};
+  if (scene.bed.held) return {{}, "from the start: the particles are held"};
   if (bed.state == Fluidisation::packed && !loose) return {{}, "from the start: the bed stays packed"};
   if (gas) return {{}, "no time foreseen: the height swings as bubbles form and burst"};
-  if (is_carried(bed.state) || overflows(scene, bed))
-    return {{}, "no time foreseen: solids leave, or gather at the top"};
+  if (overflows(scene, bed)) return {{}, "no time foreseen: solids leave over the top"};
   if (scene.bed.start.kind == core::StartKind::list || scene.bed.start.kind == core::StartKind::checkpoint)
     return {{}, "no time foreseen: the start is read from a file"};
   if (loose && !bed.leaving.empty()) return {{}, "no time foreseen: the solids that are lifted leave first"};
@@ -49,9 +49,10 @@ FirstSteady first_steady(const core::Scene& scene, const Slices& slices, const B
   const double end = std::min(*bed.own.height, scene.column.size[1]);
   const std::optional<double> least = moving_time(slices, start, end, *bed.velocity, carried);
   if (!least) return {{}, "no time foreseen: the fluid is too slow near the top to lift the settled bed"};
-  const std::string by = loose ? "u less the velocity that carries the bed at its start" : "u - u_mf";
-  return {least,
-          end > start ? "the top rises no faster than " + by : "the top falls as the bed settles through the fluid"};
+  if (end < start) return {least, "the top falls as the bed settles through the fluid"};
+  const std::string even = bed.top_heavy ? "if each level were even, " : "",
+                    by = loose ? "u less the velocity that carries the bed at its start" : "u - u_mf";
+  return {least, even + "the top rises no faster than " + by};
 }
 
 }  // namespace polybed::multiscale

@@ -69,7 +69,7 @@ class Expected(Scratch):
         case, low = self.write("bed.toml", FILTER), ("--set", 'column.size=["50 mm", "600 mm"]', "--set", "column.cells=[1,60]")
         text = self.ends(DONE, "check", case, *low).stdout
         self.assertIn("up to the top of the column by wen_yu, over which solids leave", text)
-        self.assertRegex(text, r"(?m)^steady +no time foreseen: solids leave, or gather at the top; ")
+        self.assertRegex(text, r"(?m)^steady +no time foreseen: solids leave over the top; ")
         text = self.ends(DONE, "check", case, *low, "--set", "column.outlet=screen").stdout
         self.assertNotIn("solids leave", text)
         self.assertRegex(text, r"(?m)^steady ")
@@ -121,7 +121,8 @@ class Steady(Scratch):
         inlet = expected["u_over_u_mf"] * fluidises
         time = np.mean(1 / (inlet / (1 + height / 0.2) ** 2 - fluidises)) * (top - 0.1)
         self.assertAlmostEqual(expected["rising_time_s"] / time, 1, delta=2e-4)
-        self.assertRegex(text, r"(?m)^steady +after [\d.]+ s at least: the top rises no faster than u - u_mf$")
+        self.assertRegex(text, r"(?m)^steady +after [\d.]+ s at least: if each level were even, the top rises no faster than u - u_mf$")
+        self.assertRegex(text, "(?m)^validity +no measured bed of this kind; ")
         self.assertIn("wider above, the bed is denser there, turns over and stays lower", text)
         settled, expanded = re.search(r"(?m)^weight +([\d.]+) Pa in the fluid, settled; pressure drop between that and ([\d.]+) Pa, if expanded evenly$", text).groups()
         self.assertLess(float(expanded), 0.98 * float(settled))
@@ -138,6 +139,8 @@ class Steady(Scratch):
     def test_it_says_where_it_foresees_no_time(self):
         for name, keys, text in (("gas-bed", [], "no time foreseen: the height swings as bubbles form and burst; --until steady ends a run once its card says steady"),
                                  ("spouted-bed", [], "no time foreseen: a jet moves only the solids on its path; --until steady .*"),
+                                 ("liquid-bed", ["inlet.superficial_velocity=0.3"], "no time foreseen: the fluid carries all solids to the top; .*"),
+                                 ("liquid-bed", ["inlet.superficial_velocity=0.005", "dem.held=true"], "from the start: the particles are held"),
                                  ("liquid-bed", ["inlet.superficial_velocity=0.005"], "from the start: the bed stays packed"),
                                  ("liquid-bed", ['inlet.superficial_velocity=[["0 s", "0 mm/s"], ["28 s", "40 mm/s"]]'],
                                   "after 28 s at least: the inlet changes until then; the run ends at 30 s, too early: .*")):
