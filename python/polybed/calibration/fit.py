@@ -145,7 +145,8 @@ def require_usable(table, falls):
         below, phi, above = table["phi"][p - 1:p + 2]
         raise StudyError(NUMBERS, f"left out, the solids fraction {phi:g} is missed: the curve through the others has a {name} that is off by "
                                f"{100 * residual:.1f} % more than two standard errors of both, {allowed}. Half the distance leaves about a "
-                               f"quarter: add {(below + phi) / 2:.4g} and {(phi + above) / 2:.4g} to calibrate.solids_fraction")
+                               f"quarter: add {(below + phi) / 2:.4g} and {(phi + above) / 2:.4g} to calibrate.solids_fraction, "
+                               "or, where that gains nothing, raise calibrate.particles")
     for phi, seeds, error in zip(table.points("phi"), table.points("p_ratio_n"), relative_errors(table)):
         if seeds > 1 and not error <= GREATEST_RESIDUAL:
             more = math.ceil((error / GREATEST_RESIDUAL) ** 2 * seeds)
