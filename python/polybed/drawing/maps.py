@@ -73,6 +73,43 @@ def inner_walls(run):
     return lines
 
 
+PORTS = {"jet": "#0072b2", "feed": "#009e73", "discharge": "#d55e00"}
+FACES = {"left": (0, 0), "right": (0, 1), "bottom": (1, 0), "top": (1, 1), "front": (2, 0), "back": (2, 1)}  # axis, side
+
+
+def ports_of(run, size):
+    """Jets, feeds and discharges with their place on the sides of a column of a size, (name, colour, axis, least and greatest corner in m)."""
+    try:
+        case = case_of(run.record)
+    except DamagedError:
+        return []
+    flat, found = len(case.get("column", {}).get("size", size)) == 2, []
+    for kind, colour in PORTS.items():
+        for number, port in enumerate(case.get(kind, []), 1):
+            axis, side = FACES[port.get("at", "bottom")]
+            low, high = np.zeros(len(size)), np.array(size, dtype=float)
+            low[axis] = high[axis] = side * size[axis] if axis < len(size) else 0
+            along = [a for a in ((2, 1), (0, 2), (0, 1))[axis] if a < (2 if flat else 3)]
+            for a, least, most in zip(along, port.get("from", []), port.get("to", [])):
+                if a < len(size):
+                    low[a], high[a] = least, most
+            found.append((f"{kind}{number}", colour, axis, low, high))
+    return found
+
+
+def draw_ports(axes, run):
+    """Ports in colour with their names: a bar on the wall, or the outline of one in front or behind; on both sides of an axis."""
+    factor = length_unit(run)[0]
+    for name, colour, axis, low, high in ports_of(run, run.size[:2]):
+        x, y = np.array([low[0], high[0]]) * factor, np.array([low[1], high[1]]) * factor
+        for across in (x, -x) if around_axis(run) else (x,):
+            corners = (across[[0, 1, 1, 0, 0]], y[[0, 0, 1, 1, 0]]) if axis == 2 else (across, y)
+            axes.plot(*corners, color=colour, linewidth=1 if axis == 2 else 7, solid_capstyle="butt", zorder=4)
+        right = 2 * x.mean() > sum(axes.get_xlim())
+        axes.annotate(name, (x.max() if right else x.min(), y.max()), (-4 if right else 4, 2), textcoords="offset points", color=colour,
+                      bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.5, "alpha": 0.8}, fontsize=6, ha="right" if right else "left", zorder=5, annotation_clip=True)
+
+
 def frame(axes, run, title, top, first):
     """Axes that show the column up to a height, to scale, in the unit of the run."""
     factor, unit = length_unit(run)
@@ -88,6 +125,7 @@ def frame(axes, run, title, top, first):
         if len(line) > 2:
             axes.fill(*(factor * line.T), color=EMPTY, zorder=2)
         axes.plot(*(factor * line.T), color="black", linewidth=1)
+    draw_ports(axes, run)
     if first:
         axes.set_ylabel(f"y ({unit})")
     else:

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from polybed.drawing.maps import outline, stored_maps, walls_of
+from polybed.drawing.maps import outline, ports_of, stored_maps, walls_of
 from polybed.drawing.style import COLOURS, FEW_SOLIDS, around_axis, as_shown, faces_across, length_unit
 from polybed.texts import fitting
 from polybed.particles import step_shown
@@ -183,6 +183,24 @@ def outlines_of(run):
     return [np.array(line, dtype=float).reshape(-1, 3) for line in lines + opening_of(run)]
 
 
+def outlines_of_ports(run):
+    """(name, colour, closed line round a port), on the wall of a round column for one in its side; m."""
+    size, ports = run.particles.size, []
+    is_round = case_of(run.record).get("column", {}).get("shape") == "cylinder"
+    for name, colour, axis, low, high in ports_of(run, size):
+        a, b = (n for n in range(3) if n != axis)
+        line = np.array([low] * (4 * ROUND))
+        there = np.linspace(0, 1, ROUND, endpoint=False)
+        line[:, a] = low[a] + (high[a] - low[a]) * np.concatenate([there, np.ones(ROUND), 1 - there, np.zeros(ROUND)])
+        line[:, b] = low[b] + (high[b] - low[b]) * np.concatenate([np.zeros(ROUND), there, np.ones(ROUND), 1 - there])
+        if is_round and axis != 1:
+            other, radius = 2 - axis, size[0] / 2
+            reach = np.sqrt(np.maximum(radius**2 - (line[:, other] - radius) ** 2, 0))
+            line[:, axis] = radius + (reach if low[axis] > 0 else -reach)
+        ports.append((name, colour, line))
+    return ports
+
+
 def particles_of(run):
     """The particles for JSON, with the slider's times; None of a run without any."""
     total = int(run.particles.count.max()) if len(run.particles) else 0
@@ -202,10 +220,12 @@ def particles_of(run):
     notes = [f"{len(chosen)} of {count} stored times"] if len(chosen) < count else []
     notes += [f"one particle in {share}"] if share > 1 else []
     factor, outlines, names = length_unit(run)[0], outlines_of(run), list(kinds_among(run.particles.species))
+    ports = outlines_of_ports(run)
     size = run.particles.size * factor
-    walls = max((float(line[:, 1].max()) * factor for line in outlines), default=0.0)
+    walls = max((float(line[:, 1].max()) * factor for line in outlines + [line for *_, line in ports]), default=0.0)
     size[1] = min(size[1], max(1.1 * found["top"], 0.25 * size[0], walls))  # a bed in a tall column is not to be a strip at the bottom
     return found | {"time": plain_numbers(run.particles.time[chosen]), "open": float(run.particles.time[step_shown(run.particles.count)]),
                     "names": names, "size": [float(v) for v in size],
                     "outlines": [[plain_numbers(point * factor) for point in line] for line in outlines],
+                    "ports": [[name, colour, [plain_numbers(point * factor) for point in line]] for name, colour, line in ports],
                     "colours": [COLOURS[n % len(COLOURS)] for n in range(len(names))], "note": "; ".join(notes)}

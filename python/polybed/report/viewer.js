@@ -238,6 +238,12 @@
         for (const point of line) to.lineTo(...project(...point).slice(0, 2));
         to.closePath(); to.fill(); to.stroke();
       }
+      to.font = "11px sans-serif"; to.textAlign = "left";
+      for (const [label, colour, line] of all.ports) {
+        to.strokeStyle = to.fillStyle = colour; to.beginPath();
+        for (const point of line) to.lineTo(...project(...point).slice(0, 2));
+        to.closePath(); to.stroke(); to.fillText(label, ...project(...line[0]).slice(0, 2));
+      }
       to.lineWidth = 1;
       element.dataset.drawn = seen.length; element.dataset.outlines = all.outlines.length;
     }

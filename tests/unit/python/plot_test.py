@@ -224,7 +224,8 @@ class AroundAxis(SampleRun):
     def setUp(self):
         super().setUp()
         path = self.directory / "run.json"
-        path.write_text(json.dumps(json.loads(path.read_text()) | {"case": '[column]\nshape = "axisymmetric"\nprofile = [[0, 0.06], [0.2, 0.12]]'}))
+        case = 'jet = [{from = [0.01], to = [0.02]}]\n[column]\nshape = "axisymmetric"\nprofile = [[0, 0.06], [0.2, 0.12]]'
+        path.write_text(json.dumps(json.loads(path.read_text()) | {"case": case}))
         self.sample = polybed.read(self.directory)
 
     def test_pictures_and_page_go_from_wall_to_wall(self):
@@ -232,7 +233,8 @@ class AroundAxis(SampleRun):
         axes = figure.axes[0]
         self.assertEqual(axes.get_xlim(), (-60, 60))
         self.assertTrue(axes.get_xlabel().startswith("r"))
-        self.assertEqual([tuple(line.get_xdata()) for line in axes.lines], [(-30, -60), (30, 60)])
+        self.assertEqual([tuple(line.get_xdata()) for line in axes.lines], [(-30, -60), (30, 60), (10, 20), (-10, -20)])
+        self.assertEqual([text.get_text() for text in axes.texts], ["jet1"])
         phi = self.sample.phi_fine[4]
         np.testing.assert_array_equal(meshes[0][0].get_array().reshape(60, 36), np.hstack([phi[:, ::-1], phi]))
         on_page = beds.maps_of(self.sample)

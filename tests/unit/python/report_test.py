@@ -218,6 +218,22 @@ class Particles(SampleRun):
         add_case(self.directory)
         self.assertEqual(data_of(self.page())["particles"]["outlines"], [])
 
+    def test_ports_are_outlined(self):
+        """On the side of a box, 60 mm wide and 8 mm deep in the sample; on the wall of a tube as wide as the sample's box."""
+        jet = '[[jet]]\nat = "left"\nfrom = [0.02]\nto = [0.03]\n'
+        add_case(self.directory, case="[column]\nsize = [0.06, 0.2]\n" + jet)
+        [[name, _, line]] = data_of(self.page())["particles"]["ports"]
+        self.assertEqual(name, "jet1")
+        self.assertEqual([(min(x), max(x)) for x in zip(*line)], [(0, 0), (20, 30), (0, 8)])
+        port = '[[discharge]]\nat = "right"\nfrom = [0.002, 0.02]\nto = [0.006, 0.03]\n'
+        add_case(self.directory, case='[column]\nshape = "cylinder"\nsize = [0.06, 0.06, 0.2]\n' + port)
+        [[name, _, line]] = data_of(self.page())["particles"]["ports"]
+        self.assertEqual(name, "discharge1")
+        for x, _, z in line:
+            self.assertAlmostEqual(np.hypot(x - 30, z - 30), 30, places=1)
+        add_case(self.directory)
+        self.assertEqual(data_of(self.page())["particles"]["ports"], [])
+
 
 class Noise:
     """A run whose fields, or particles, are noise, which nothing compresses: the worst that there is for the size of a page."""
