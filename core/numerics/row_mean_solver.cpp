@@ -66,7 +66,8 @@ bool is_cut_alike(const Grid& grid) { return grid.metric && grid.metric->cut() &
 }  // namespace
 
 bool RowMeanSolver::serves(const Grid& grid) {
-  if (is_cut_alike(grid)) return SectionModes::serves(grid);
+  const Grid plain = PortPatch::without_ports(grid);
+  if (is_cut_alike(plain)) return SectionModes::serves(plain);
   return grid.cells[0] <= most_across && grid.cells[2] <= most_across;
 }
 
@@ -80,8 +81,10 @@ RowMeanSolver::RowMeanSolver(const Grid& grid)
       image_(residual_),
       preconditioned_(residual_) {
   across_[0] = across_[1] = diagonal_;
-  if (is_cut_alike(grid)) {
-    section_.emplace(grid);
+  const Grid plain = PortPatch::without_ports(grid);
+  if (is_cut_alike(plain)) {
+    if (plain.metric != grid.metric) ports_ = std::make_unique<PortPatch>(grid, plain);
+    section_.emplace(plain);
     x_.rate = section_->rates();
     z_.rate = {0};
   } else {
@@ -132,7 +135,7 @@ RowMeanSolver::Modes RowMeanSolver::modes_of_rings(const Grid& grid) {
 /// Computes means over the cells at each height; false if the coefficients at one differ too much.
 bool RowMeanSolver::average(const FaceSpans& coefficient, std::span<const double> shift) {
   const auto n = grid_.cells;
-  bool fine = !is_tapered(grid_);  // no row is even at a sloping wall
+  bool fine = ports_ || !is_tapered(grid_);  // no row is even at a sloping wall
   if (!fine) return false;
   double faces = 0;
   const auto mean = [&](int axis, int row) {
@@ -229,11 +232,14 @@ void RowMeanSolver::sweep() {
 }
 
 /// z = solution of the row-mean equation for r: transforms to waves, solves up and down the column, transforms back.
-void RowMeanSolver::precondition(const Field& r, Field& z) {
+/// Next to ports z satisfies the equation itself, and r is 0 up to round-off.
+void RowMeanSolver::precondition(const FaceSpans& coefficient, Field& r, Field& z) {
   if (section_) {
+    if (ports_) ports_->clear(r);
     section_->to_modes(r, turned_, values_);
     sweep();
     section_->to_cells(values_, turned_, z);
+    if (ports_) ports_->fill(coefficient, {}, z);
     return;
   }
   const auto [nx, ny, nz] = grid_.cells;
@@ -276,12 +282,17 @@ std::optional<int> RowMeanSolver::solve(const FaceSpans& coefficient, std::span<
                                         const Field& source, Field& p, double tolerance) {
   if (!average(coefficient, shift)) return std::nullopt;
   factorise();
+  if (ports_ && !ports_->setup(coefficient, shift)) return std::nullopt;
   // An iteration gains a factor of 20 or more. Stopping just within the tolerance would save one iteration in some
   // solves but leave errors as large as the tolerance; multigrid ends far below it.
   constexpr double share = 0.05;
   const double enough = share * tolerance * std::sqrt(dot(grid_, source, source));
   std::fill(direction_.begin(), direction_.end(), 0.0);  // ghosts beyond the ends stay 0
   add(grid_, 1, p, direction_);
+  if (ports_) {
+    ports_->fill(coefficient, source, direction_);
+    ports_->copy(direction_, p);
+  }
   apply(coefficient, shift, direction_, image_);
   residual_ = source;
   add(grid_, -1, image_, residual_);
@@ -294,7 +305,7 @@ std::optional<int> RowMeanSolver::solve(const FaceSpans& coefficient, std::span<
     return left > (iterations > 0 ? enough : round_off) && iterations < most_row_iterations;
   };
   while (goes_on()) {
-    precondition(residual_, preconditioned_);
+    precondition(coefficient, residual_, preconditioned_);
     const double before = weight;
     weight = dot(grid_, residual_, preconditioned_);
     scale_and_add(grid_, preconditioned_, iterations == 0 ? 0.0 : weight / before, direction_);

@@ -1,15 +1,18 @@
 // The pressure equation of a column with few cells across: conjugate gradients, preconditioned by the same equation
 // with coefficients averaged over each horizontal row, which is solved exactly. In a liquid bed coefficients differ by
-// a tenth along a row, and one or two iterations suffice.
+// a tenth along a row, and one or two iterations suffice. In a tube with ports the preconditioner is that of the tube
+// without them and, around the ports, the equation itself.
 #pragma once
 
 #include <Eigen/Dense>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
 
 #include "core/numerics/halo.hpp"
 #include "core/numerics/linear_solver.hpp"
+#include "core/numerics/port_patch.hpp"
 #include "core/numerics/section_modes.hpp"
 
 namespace polybed::core {
@@ -41,13 +44,14 @@ class RowMeanSolver {
   [[nodiscard]] bool average(const FaceSpans& coefficient, std::span<const double> shift);
   [[nodiscard]] double open_sides(const FaceSpans& coefficient, int row) const;
   void factorise();
-  void precondition(const Field& r, Field& z);
+  void precondition(const FaceSpans& coefficient, Field& r, Field& z);
   void sweep();
   void apply(const FaceSpans& coefficient, std::span<const double> shift, Field& p, Field& out);
 
   Grid grid_;
   Halo halo_;
   std::optional<SectionModes> section_;  ///< where a wall cuts cells, replaces waves both ways
+  std::unique_ptr<PortPatch> ports_;     ///< where modes are of the column without its ports
   Modes x_, z_;
   std::vector<double> across_[2], up_, diagonal_;  ///< row means: along axes 0 and 2, 1 (faces), and of the shift
   std::vector<double> factor_;                     ///< 1/pivot of each mode: [layer][row][mode]
