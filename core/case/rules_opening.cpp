@@ -154,16 +154,27 @@ Broken feeds_denser_than_the_bed(const Scene& scene) {
   return broken;
 }
 
+/// Where a port can lie beside a profile: "from 0.1 to 0.2 m".
+std::string widest_heights(const Column& column) {
+  const auto& profile = column.profile;
+  std::string text;
+  for (std::size_t k = 1; k < profile.size(); ++k)
+    if (std::min(profile[k - 1].second, profile[k].second) >= column.widest() * (1 - 1e-9))
+      text +=
+          fmt::format("{}from {:.4g} to {:.4g} m", text.empty() ? "" : " or ", profile[k - 1].first, profile[k].first);
+  return text.empty() ? "nowhere over a straight part" : text;
+}
+
 /// Finds ports in a cone, or in another part of the wall inside the widest one. One without corners is the whole side.
 template <class Part>
-Broken rings_in_a_narrow_part(const Scene& scene, const std::vector<Part>& parts) {
+Broken ports_in_a_narrow_part(const Scene& scene, const std::vector<Part>& parts) {
   Broken broken;
   const auto& profile = scene.column.profile;
-  if (!scene.column.around_axis() || profile.empty()) return broken;
+  if (scene.column.shape == ColumnShape::box || profile.empty()) return broken;
   const double widest = scene.column.widest(), near = 1e-9 * profile.back().first;
   for (std::size_t n = 0; n < parts.size(); ++n) {
     const Part& part = parts[n];
-    if (part.at != ColumnFace::right) continue;
+    if (!is_side(part.at)) continue;
     const double low = part.from.empty() ? profile.front().first : part.from.back(),
                  high = part.to.empty() ? profile.back().first : part.to.back();
     bool fits = true;
@@ -172,7 +183,7 @@ Broken rings_in_a_narrow_part(const Scene& scene, const std::vector<Part>& parts
         fits = fits && std::min(profile[k - 1].second, profile[k].second) >= widest * (1 - 1e-9);
     if (!fits)
       broken.add({std::string(name_of(part.at)), fmt::format("{:.4g}", low), fmt::format("{:.4g}", high),
-                  fmt::format("{:.4g}", widest)},
+                  fmt::format("{:.4g}", widest), widest_heights(scene.column)},
                  entry_of(scene, parts, n));
   }
   return broken;
@@ -226,30 +237,14 @@ std::vector<Rule> place_rules(const std::string& table, std::vector<Part> Scene:
            [](const Column& column, ColumnFace) { return column.sides == Boundary::periodic; }),
       rule("column.shape", " is no side of an axisymmetric column, whose wall is \"right\"",
            [](const Column& column, ColumnFace face) { return column.around_axis() && face == ColumnFace::left; }),
-      rule("column.profile",
-           " in a cylinder and column.profile cannot be combined yet: leave column.profile out, or use column.shape "
-           "= \"axisymmetric\"",
-           [](const Column& column, ColumnFace) { return column.is_round() && column.is_tapered(); }),
       {{at, from, to, "column.profile", "column.shape"},
-       at + " = \"{}\", from {} to {} m: a ring lies where column.profile has its greatest diameter, {} m, as the grid "
-            "ends there",
-       [parts](const Scene& scene) { return rings_in_a_narrow_part(scene, scene.*parts); }},
-      rule("column.grading", " in a cylinder and column.grading cannot be combined yet: leave column.grading out",
-           [](const Column& column, ColumnFace) { return column.is_round() && column.grading.has_value(); }),
+       at + " = \"{}\", from {} to {} m: a port lies where column.profile has its greatest diameter, {} m, as the grid "
+            "ends there: {}",
+       [parts](const Scene& scene) { return ports_in_a_narrow_part(scene, scene.*parts); }},
       {{at, from, to, "column.shape", "column.size"},
        at + " = \"{}\" in a cylinder: " + from + " and " + to +
            " lie between {} and {} m across, where the wall faces that side: a part of the next side takes the rest",
-       [parts](const Scene& scene) { return ports_off_their_side(scene, scene.*parts); }},
-      {{at, "wall.thickness", "column.shape", "fluid.name"},
-       at + " = \"{}\" in a cylinder and [[wall]] in a fluid cannot be combined yet: leave out one of them",
-       [parts](const Scene& scene) {
-         Broken broken;
-         for (std::size_t n = 0; n < (scene.*parts).size(); ++n)
-           if (const ColumnFace face = (scene.*parts)[n].at;
-               is_side(face) && scene.column.is_round() && !scene.walls.empty() && scene.fluid.present())
-             broken.add({std::string(name_of(face))}, entry_of(scene, scene.*parts, n));
-         return broken;
-       }}};
+       [parts](const Scene& scene) { return ports_off_their_side(scene, scene.*parts); }}};
 }
 
 std::vector<Rule> jet_rules() {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
 #include <numeric>
 
 #include "core/numerics/open_layer.hpp"
@@ -47,26 +46,23 @@ OpenLayer layer_between(const Sections& sections, const Taper& taper, double low
   return layer;
 }
 
-/// Open shares of the faces between two layers, null beyond the ends. The shares of closed cells move with their
+/// Open shares of the faces between two layers. The shares of closed cells move with their
 /// volume, so that the whole cross-section stays open.
-std::vector<double> level_between(const Sections& sections, double radius, const OpenLayer* below,
-                                  const OpenLayer* above) {
+std::vector<double> level_between(const Sections& sections, double radius, const OpenLayer& below,
+                                  const OpenLayer& above) {
   OpenLayer level = sections.empty();
   sections.add(radius, 1, level);
   std::vector<double>& open = level.open.volume;
   const double all = std::accumulate(open.begin(), open.end(), 0.0);
-  const auto is_closed = [&](std::size_t c) {
-    return (below && !(below->open.volume[c] > 0)) || (above && !(above->open.volume[c] > 0));
-  };
+  const auto is_closed = [&](std::size_t c) { return !(below.open.volume[c] > 0) || !(above.open.volume[c] > 0); };
   const auto is_left = [&] {
     for (std::size_t c = 0; c < open.size(); ++c)
       if (open[c] > 0 && is_closed(c)) return true;
     return false;
   };
   for (int pass = 0; pass < level.open.width && is_left(); ++pass)
-    for (const OpenLayer* layer : {below, above})
-      for (std::size_t n = 0; layer && n < layer->taken.size(); ++n) {
-        const Taken& taken = layer->taken[n];
+    for (const OpenLayer* layer : {&below, &above})
+      for (const Taken& taken : layer->taken) {
         for (const std::size_t to : taken.to) open[to] += open[taken.from] / double(taken.to.size());
         open[taken.from] = 0;
       }
@@ -77,18 +73,19 @@ std::vector<double> level_between(const Sections& sections, double radius, const
   return open;
 }
 
-using Chosen = std::vector<std::size_t>;  ///< ducts, by number, in order
-
-OpenLayer layer_with_ducts(const Sections& sections, const Ducts& ducts, const Chosen& chosen) {
-  OpenLayer layer = sections.empty();
-  sections.add(sections.radius(), 1, layer);
-  std::vector<bool> in_duct(layer.open.volume.size(), false);
-  for (const std::size_t n : chosen) sections.open_duct(ducts[n], layer, in_duct);
-  sections.absorb_small_cells(layer);
-  sections.set_wall({}, {}, {}, 0, layer);
-  for (std::size_t c = 0; c < in_duct.size(); ++c)  // a duct is short: it has no friction
-    if (in_duct[c]) layer.open.wall[c] = 0;
-  return layer;
+/// Opens the ducts that reach into layer y. A duct is short: it has no friction. \return the cells in ducts; empty:
+/// none
+std::vector<bool> open_ducts(const Sections& sections, const Grid& column, const Ducts& ducts, int y,
+                             OpenLayer& layer) {
+  std::vector<bool> in_duct;
+  for (const Duct& duct : ducts) {
+    if (std::min(duct.to[1], column.low(1, y + 1)) - std::max(duct.from[1], column.low(1, y)) <
+        near_face * column.height(y))
+      continue;
+    in_duct.resize(layer.open.volume.size(), false);
+    sections.open_duct(duct, layer, in_duct);
+  }
+  return in_duct;
 }
 
 }  // namespace
@@ -103,7 +100,7 @@ double radius_at(const Taper& taper, double height, int side) {
   return 0.5 * (height > taper.front().first ? taper.back() : taper.front()).second;
 }
 
-std::vector<CrossSection> cross_sections(const Grid& column, bool rings, const Taper& taper) {
+std::vector<CrossSection> cross_sections(const Grid& column, bool rings, const Taper& taper, const Ducts& ducts) {
   const Sections sections(column, rings);
   const auto level_of = [&](std::size_t y) {  // heights that agree up to round-off are one step
     const double h = column.spacing[1], height = double(y) * h;
@@ -111,56 +108,48 @@ std::vector<CrossSection> cross_sections(const Grid& column, bool rings, const T
                                   [&](const auto& one) { return std::abs(one.first - height) < 1e-11 * h; });
     return row == taper.end() ? height : row->first;
   };
-  const auto count = std::size_t(taper.empty() ? 1 : column.cells[1]);
+  const bool alike = taper.empty() && ducts.empty();
+  const auto count = std::size_t(alike ? 1 : column.cells[1]);
+  const auto whole_layer = [&](std::size_t n) {
+    OpenLayer layer = taper.empty() ? sections.empty() : layer_between(sections, taper, level_of(n), level_of(n + 1));
+    if (taper.empty()) sections.add(sections.radius(), 1, layer);
+    return layer;
+  };
   std::vector<OpenLayer> layers;
+  std::vector<std::vector<bool>> in_duct;
   for (std::size_t n = 0; n < count; ++n) {
-    layers.push_back(taper.empty() ? sections.empty() : layer_between(sections, taper, level_of(n), level_of(n + 1)));
-    if (taper.empty()) sections.add(sections.radius(), 1, layers.back());
+    layers.push_back(whole_layer(n));
+    in_duct.push_back(open_ducts(sections, column, ducts, int(n), layers.back()));
     sections.absorb_small_cells(layers.back());
   }
-  std::vector<CrossSection> result;
-  if (taper.empty()) {
+  if (alike) {
     OpenLayer& only = layers.front();
     only.open.open_y = only.open.volume;
     sections.set_wall(only.open.open_y, only.open.open_y, taper, 0, only);
     return {std::move(only.open)};
   }
-  for (std::size_t n = 0; n <= count; ++n) {
+  const auto radius_of = [&](std::size_t n) {
+    if (taper.empty()) return sections.radius();
     const double height = level_of(n);
-    const double radius = std::min(n > 0 ? radius_at(taper, height, -1) : radius_at(taper, height, 1),
-                                   n < count ? radius_at(taper, height, 1) : radius_at(taper, height, -1));
+    return std::min(n > 0 ? radius_at(taper, height, -1) : radius_at(taper, height, 1),
+                    n < count ? radius_at(taper, height, 1) : radius_at(taper, height, -1));
+  };
+  std::vector<OpenLayer> beyond;  // without ducts
+  for (const std::size_t end : {std::size_t(0), count - 1}) {
+    beyond.push_back(whole_layer(end));
+    sections.absorb_small_cells(beyond.back());
+  }
+  std::vector<CrossSection> result;
+  for (std::size_t n = 0; n <= count; ++n) {
     result.push_back(n < count ? layers[n].open : sections.empty().open);
-    result.back().open_y =
-        level_between(sections, radius, n > 0 ? &layers[n - 1] : nullptr, n < count ? &layers[n] : nullptr);
+    result.back().open_y = level_between(sections, radius_of(n), n > 0 ? layers[n - 1] : beyond.front(),
+                                         n < count ? layers[n] : beyond.back());
   }
   for (std::size_t n = 0; n < count; ++n) {
     sections.set_wall(result[n].open_y, result[n + 1].open_y, taper, (double(n) + 0.5) * column.spacing[1], layers[n]);
     result[n].wall = std::move(layers[n].open.wall);
-  }
-  return result;
-}
-
-std::vector<CrossSection> cross_sections_with_ducts(const Grid& column, const Ducts& ducts) {
-  const Sections sections(column, false);
-  std::map<Chosen, OpenLayer> built;
-  const auto layer_of = [&](const Chosen& chosen) -> const OpenLayer& {
-    const auto known = built.find(chosen);
-    return known != built.end() ? known->second
-                                : built.emplace(chosen, layer_with_ducts(sections, ducts, chosen)).first->second;
-  };
-  std::vector<Chosen> chosen{{}};  // those at each layer, from the one below the bottom to the one above the top
-  for (int y = 0; y < column.cells[1]; ++y) {
-    chosen.emplace_back();
-    for (std::size_t n = 0; n < ducts.size(); ++n)
-      if (std::min(ducts[n].to[1], column.low(1, y + 1)) - std::max(ducts[n].from[1], column.low(1, y)) >=
-          near_face * column.height(y))
-        chosen.back().push_back(n);
-  }
-  chosen.emplace_back();
-  std::vector<CrossSection> result;
-  for (std::size_t n = 1; n < chosen.size(); ++n) {
-    result.push_back(layer_of(chosen[n]).open);
-    result.back().open_y = level_between(sections, sections.radius(), &layer_of(chosen[n - 1]), &layer_of(chosen[n]));
+    for (std::size_t c = 0; c < in_duct[n].size(); ++c)
+      if (in_duct[n][c]) result[n].wall[c] = 0;
   }
   return result;
 }

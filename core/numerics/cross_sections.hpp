@@ -6,13 +6,12 @@
 
 namespace polybed::core {
 
-/// One entry for all layers without a taper; else one per layer and one for the top, of which only the low faces count.
+/// One entry for all layers without a taper and ducts; else one per layer and one for the top, of which only the low
+/// faces count. Between layers only the circle is open, so a duct several layers high is no shaft.
 /// \param column  all of it, as wide as its largest diameter  \param rings  about the low end along x
-[[nodiscard]] std::vector<CrossSection> cross_sections(const Grid& column, bool rings, const Taper& taper);
-
-/// The same for a cylinder with ducts to ports in its side: one per layer and one for the top. Between layers only the
-/// circle is open, so a duct several layers high is no shaft.
-[[nodiscard]] std::vector<CrossSection> cross_sections_with_ducts(const Grid& column, const Ducts& ducts);
+/// \param ducts   to ports in the side of a cylinder
+[[nodiscard]] std::vector<CrossSection> cross_sections(const Grid& column, bool rings, const Taper& taper,
+                                                       const Ducts& ducts = {});
 
 /// Radius of a tapered column just above (side 1) or below (-1) a height, m.
 [[nodiscard]] double radius_at(const Taper& taper, double height, int side);

@@ -115,8 +115,7 @@ CrossSection whole_section(const Grid& column) {
 /// Without walls inside.
 std::vector<CrossSection> layers_of(const Grid& column, const Metric& metric) {
   if (metric.shape == ColumnShape::box) return {whole_section(column)};
-  if (!metric.ducts.empty()) return cross_sections_with_ducts(column, metric.ducts);
-  return cross_sections(column, metric.around_axis, metric.taper);
+  return cross_sections(column, metric.around_axis, metric.taper, metric.ducts);
 }
 
 /// \param uncut  the layers without the walls inside; receives an entry for each layer

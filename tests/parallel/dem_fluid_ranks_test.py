@@ -136,11 +136,17 @@ class FluidOnRanks(Scratch):
     def test_a_cone_stores_the_same_on_several_ranks_and_after_a_restart(self):
         self.check_round(CONE)
 
-    def test_ports_in_a_tube_store_the_same_on_several_ranks_and_after_a_restart(self):
+    def check_ports(self, *more):
         self.check_round([*ROUND, *(word for setting in (
             'feed=[{species="fine", at="left", from=[0.006,0.04], to=[0.012,0.05], superficial_velocity=0.02, velocity=0.2}]',
             'discharge=[{at="right", from=[0.006,0.005], to=[0.012,0.012], superficial_velocity=0.05}, '
-            '{at="back", from=[0.005,0.02], to=[0.011,0.026], pressure=-5}]') for word in ("--set", setting))])
+            '{at="back", from=[0.005,0.02], to=[0.011,0.026], pressure=-5}]', *more) for word in ("--set", setting))])
+
+    def test_ports_in_a_tube_store_the_same_on_several_ranks_and_after_a_restart(self):
+        self.check_ports()
+
+    def test_ports_in_a_graded_tube_store_the_same_on_several_ranks_and_after_a_restart(self):
+        self.check_ports("column.grading=1.2", "column.graded_above=0.015")
 
     def check_particles(self, found, ranks):
         """What each step's pressure lets go wrong with a particle is 1e-8 of what the fluid does to it in that step, so that

@@ -2,6 +2,7 @@
 // a fluid, and the accounts. Longer than 400 lines because flat and curved sides share the scenes.
 #include <numeric>
 
+#include "core/case/grading.hpp"
 #include "measures/particle_profile.hpp"
 #include "scenes/dem_scenes.hpp"
 #include "scenes/wet_beads.hpp"
@@ -261,6 +262,13 @@ TEST(DemSidePorts, KeepCountAndLedger) {
   compare("ledger of side ports", miss / greatest, 0, 1e-3, 1);
 }
 
+void expect_same_bits(const Beads& through, const Beads& again) {
+  const core::Checkpoint one = through.model.checkpoint(), other = again.model.checkpoint();
+  EXPECT_EQ(one.integers, other.integers);
+  EXPECT_EQ(one.numbers, other.numbers);
+  EXPECT_EQ(one.arrays, other.arrays);
+}
+
 TEST(DemSidePorts, ResumeWithTheSameBits) {
   const core::Scene scene = overflowing();
   Beads through(scene, layers()), again(scene, layers());
@@ -271,10 +279,7 @@ TEST(DemSidePorts, ResumeWithTheSameBits) {
   again.model.resume(through.model.checkpoint());
   for (Beads* run : {&through, &again}) run->steps(3200);
   EXPECT_GT(left(), 10);
-  const core::Checkpoint one = through.model.checkpoint(), other = again.model.checkpoint();
-  EXPECT_EQ(one.integers, other.integers);
-  EXPECT_EQ(one.numbers, other.numbers);
-  EXPECT_EQ(one.arrays, other.arrays);
+  expect_same_bits(through, again);
 }
 
 // By hand: 10 mm/s of 6 by 4 mm for 20 ms are 4.8 mm3, 9 spheres of 0.5236 mm3. They enter within the port at the given
@@ -400,23 +405,49 @@ core::Scene flushed_tube() {
   return scene;
 }
 
+/// The same, plain, with layers that grow from below the ports on, and above a cone.
+std::vector<core::Scene> flushed_tubes() {
+  std::vector<core::Scene> scenes(3, flushed_tube());
+  scenes[1].column.layers = core::graded_layers(12e-3, 8, 2e-3, 1.2);
+  scenes[1].column.cells[1] = int(scenes[1].column.layers.size());
+  scenes[2].column.profile = {{0, 8e-3}, {2.5e-3, 12e-3}, {12e-3, 12e-3}};
+  return scenes;
+}
+
 // Its part inside the curved side, measured along the radius, is in the cells at every step.
 TEST(DemSidePorts, CountsAParticleInATubeAsFarAsItIsInside) {
-  Beads beads(flushed_tube(), {{"a", {6.2e-3, 6e-3, 10.5e-3}, {0, 0, 0.2}}});
-  const double volume = measures::sphere_volume_below(r, 0, r);
-  bool cut = false;
-  while (true) {
-    ASSERT_LT(beads.model.time(), 0.05);
-    beads.steps(1);
-    if (beads.model.particle_count() == 0) break;
-    const dem::Vector& x = beads.place(0).x;
-    const double inside = measures::sphere_volume_below(r, std::hypot(x[0] - 6e-3, x[2] - 6e-3), 6e-3);
-    cut = cut || (inside > 0.3 * volume && inside < 0.7 * volume);
-    ASSERT_NEAR(solids_of(beads.model), inside, 1e-9 * volume);
-    ASSERT_GT(beads.motion(0).v[2], 0.1);
+  for (const core::Scene& scene : flushed_tubes()) {
+    Beads beads(scene, {{"a", {6.2e-3, 6e-3, 10.5e-3}, {0, 0, 0.2}}});
+    const double volume = measures::sphere_volume_below(r, 0, r);
+    bool cut = false;
+    while (true) {
+      ASSERT_LT(beads.model.time(), 0.05);
+      beads.steps(1);
+      if (beads.model.particle_count() == 0) break;
+      const dem::Vector& x = beads.place(0).x;
+      const double inside = measures::sphere_volume_below(r, std::hypot(x[0] - 6e-3, x[2] - 6e-3), 6e-3);
+      cut = cut || (inside > 0.3 * volume && inside < 0.7 * volume);
+      ASSERT_NEAR(solids_of(beads.model), inside, 1e-9 * volume);
+      ASSERT_GT(beads.motion(0).v[2], 0.1);
+    }
+    EXPECT_TRUE(cut);
+    EXPECT_EQ(beads.model.outflow()->number, std::vector<std::int64_t>{1});
   }
-  EXPECT_TRUE(cut);
-  EXPECT_EQ(beads.model.outflow()->number, std::vector<std::int64_t>{1});
+}
+
+TEST(DemSidePorts, TubesResumeWithTheSameBits) {
+  for (core::Scene& scene : flushed_tubes()) {
+    scene.feeds.push_back({"a", ColumnFace::left, {{0.0, 0.01}}, 0.2, {4e-3, 4e-3}, {8e-3, 8e-3}});
+    const std::vector<Bead> start{{"a", {6.2e-3, 6e-3, 10.5e-3}, {0, 0, 0.2}}};
+    Beads through(scene, start), again(scene, start);
+    through.until(0.02);
+    through.steps(16 - through.model.steps() % 16);  // to the end of a step of the fluid
+    through.model.restart();
+    again.model.resume(through.model.checkpoint());
+    for (Beads* run : {&through, &again}) run->steps(160);
+    EXPECT_GT(through.model.feeding()->all(), 0);
+    expect_same_bits(through, again);
+  }
 }
 
 TEST(DemSidePorts, AreAbsentFromAFixedBedAndAWholeBox) {

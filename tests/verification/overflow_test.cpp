@@ -219,64 +219,6 @@ TEST_P(Overflow, RingsAboveACone) {
   EXPECT_LT(ledger_error(model, start), 1e-12);
 }
 
-/// A tube of 30 mm with a jet, a feed and a discharge in its wall, and one or two overflows: 8 by 8 by 30 cells.
-core::Scene tube_with_ports(core::TfmIntegrator integrator, bool open) {
-  core::Scene scene = busy(integrator, open ? core::Outlet::lid : core::Outlet::screen);
-  scene.column.shape = core::ColumnShape::cylinder;
-  scene.column.dimensions = 3;
-  scene.column.size = {0.03, 0.12, 0.03};
-  scene.column.cells = {8, 30, 8};
-  scene.jets = {{{0.009, 0.01}, {0.0165, 0.022}, {{0.0, 0.05}}, ColumnFace::front}};
-  scene.feeds = {{"fine", ColumnFace::left, {{0.0, 0.004}}, 0.05, {0.008, 0.07}, {0.02, 0.082}}};
-  scene.discharges = {{ColumnFace::back, {0.01, 0.03}, {0.02, 0.04}, {{0.0, 0.02}}, {}}};
-  if (open) scene.discharges.push_back(open_side(ColumnFace::right, {0.011, 0.06}, {0.019, 0.074}, 0));
-  return scene;
-}
-
-// Each port has the area of its rectangle, in whatever cells of the cut wall: to the pressure's tolerance, 1e-8, times
-// some. What has left by all ways is what is missing.
-TEST_P(Overflow, PortsInTheWallOfATube) {
-  constexpr double area = std::numbers::pi * 0.015 * 0.015, jet = 0.0075 * 0.012 * 0.05, feed = 0.012 * 0.012 * 0.004,
-                   discharge = 0.01 * 0.01 * 0.02;
-  for (const bool open : {false, true}) {
-    const core::Scene scene = tube_with_ports(integrator(), open);
-    core::Timers timers;
-    tfm::Model model(scene, timers);
-    const std::vector<double> start = volumes(model);
-    advance_past_breakpoints(model, 0.1);
-    const core::Grid& grid = model.constants().grid;
-    const core::Field& upward = model.fields().fluid.flux[1];
-    EXPECT_NEAR(passing(grid, upward, 7) / (0.03 * area + jet), 1, 1e-6);
-    EXPECT_NEAR(passing(grid, upward, 12) / (0.03 * area + jet - discharge), 1, 1e-6);
-    const double out = 0.03 * area + jet + feed - discharge;
-    record("flow out over the given, less 1", (open ? model.overflow() : passing(grid, upward, 30)) / out - 1);
-    EXPECT_NEAR((open ? model.overflow() : passing(grid, upward, 30)) / out, 1, 1e-6);
-    EXPECT_NEAR(model.passed()[0].in / (feed * 0.1), 1, 1e-10);
-    EXPECT_GT(model.passed()[1].out, 0);
-    EXPECT_LT(ledger_error(model, start), 1e-12);
-    const std::vector<double> flows = model.exits().flows(0.1, model.fields().fluid.flux);
-    ASSERT_EQ(flows.size(), 2u);
-    EXPECT_NEAR(flows[0] / discharge, 1, 1e-12);
-    EXPECT_NEAR(flows[1] / out, 1, 1e-6);
-    for (std::size_t j = 0; j < 2; ++j) {
-      const auto left = model.exits().passed(model.constants().openings, model.fields().solids);
-      EXPECT_NEAR(left[0][j] + left[1][j], model.passed()[j].out, 1e-12 * start[j]);
-    }
-  }
-}
-
-TEST_P(Overflow, AResumedTubeGivesTheSameBits) {
-  core::Timers timers;
-  const core::Scene scene = tube_with_ports(integrator(), true);
-  tfm::Model through(scene, timers), resumed(scene, timers);
-  advance_past_breakpoints(through, 0.02);
-  through.restart();
-  resumed.resume(through.checkpoint());
-  advance_past_breakpoints(through, 0.04);
-  advance_past_breakpoints(resumed, 0.04);
-  EXPECT_EQ(through.checkpoint().arrays.at("state"), resumed.checkpoint().arrays.at("state"));
-}
-
 // Beads lighter than the water through a third of the top, against a lid or into a downward flow that is given at both
 // ends. By hand 0.01 x (0.05 + 0.05/2) x 0.002 = 1.5e-6 m2 enter by 0.1 s, times the depth.
 TEST_P(Overflow, SolidsAreFedThroughAClosedTop) {
