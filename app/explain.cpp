@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <regex>
 #include <sstream>
 
 #include "app/options.hpp"
@@ -113,13 +114,26 @@ Meaning meaning_of(const Term& term) {
   return {text, {{"term", term.name}, {"kind", term.kind}, {"help", term.help}, {"to_do", term.todo}}};
 }
 
+/// A column of history.csv that a case names: "centre_sand_m" for a measure of each species.
 template <class Source>
-void add_measures(const measures::Table<Source>& table, const std::string& word, std::vector<Meaning>& found,
-                  std::vector<std::string>& names) {
+bool is_of_a_species(const measures::Measure<Source>& measure, const std::string& word) {
+  const std::string end = measures::Single<Source>{"", measure.unit, {}, {}}.column();
+  return measure.of_species() && word.starts_with(measure.name + "_") && word.ends_with(end) &&
+         word.size() > measure.name.size() + 1 + end.size();
+}
+
+/// A column of any way out as that of the first: "discharge2_m3_s" and "top_sand_kg".
+std::string as_of_first_exit(const std::string& word) {
+  return std::regex_replace(word, std::regex("^(discharge[0-9]+|top)_"), "discharge1_");
+}
+
+template <class Source>
+void add_measures(const measures::Table<Source>& table, const std::string& word, bool of_species,
+                  std::vector<Meaning>& found, std::vector<std::string>& names) {
   for (const measures::Measure<Source>& measure : table) {
     names.push_back(measure.name);
     const std::string column = measures::Single<Source>{measure.name, measure.unit, {}, {}}.column();
-    if (word != measure.name && word != column) continue;
+    if (word != measure.name && word != column && !(of_species && is_of_a_species(measure, word))) continue;
     found.push_back({title_of(measure.name, "measure, unit " + measure.unit) + "  " + measure.help + "\n",
                      {{"measure", measure.name}, {"unit", measure.unit}, {"help", measure.help}}});
   }
@@ -129,6 +143,15 @@ void add_measures(const measures::Table<Source>& table, const std::string& word,
 std::string without_table(const std::string& word) {
   const std::string front = "effects.";
   return word.starts_with(front) ? word.substr(front.size()) : word;
+}
+
+/// Of a column of history.csv.
+std::vector<Meaning> meanings_of_column(const std::string& word, bool of_species, std::vector<std::string>& names) {
+  std::vector<Meaning> found;
+  add_measures(measures::bed_table(), word, of_species, found, names);
+  add_measures(tfm::whole_history_table(), word, of_species, found, names);
+  add_measures(dem::whole_history_table(), word, of_species, found, names);
+  return found;
 }
 
 std::vector<Meaning> meanings_of(const std::string& word, std::vector<std::string>& names) {
@@ -153,9 +176,7 @@ std::vector<Meaning> meanings_of(const std::string& word, std::vector<std::strin
     names.push_back(term.name);
     if (word == term.name) found.push_back(meaning_of(term));
   }
-  add_measures(measures::bed_table(), word, found, names);
-  add_measures(tfm::whole_history_table(), word, found, names);
-  add_measures(dem::whole_history_table(), word, found, names);
+  for (Meaning& meaning : meanings_of_column(word, false, names)) found.push_back(std::move(meaning));
   return found;
 }
 
@@ -169,6 +190,7 @@ void run_explain(const std::string& word, bool json) {
     std::replace(joined.begin(), joined.end(), ' ', '_');
     found = meanings_of(joined, names);
   }
+  if (found.empty()) found = meanings_of_column(as_of_first_exit(word), true, names);
   for (const Term& term : terms())  // "geldart" for "Geldart class"
     if (found.empty() && !word.empty() && strncasecmp(term.name.c_str(), (word + " ").c_str(), word.size() + 1) == 0)
       found.push_back(meaning_of(term));

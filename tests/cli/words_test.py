@@ -127,6 +127,8 @@ class Explain(Scratch):
         for pair in (("carried out", "carried_out"), ("geldart", "Geldart class")):
             self.assertEqual(*(self.ends(DONE, "explain", word).stdout for word in pair))
         self.explained(["recovery"])
+        for column, help in (("discharge2_m3_s", "leaves there a second"), ("top_beads_kg", "has left there since"), ("centre_beads_m", "centre")):
+            self.assertIn(help, self.ends(DONE, "explain", column).stdout, "a column that the case names")
 
     def test_what_is_unknown(self):
         self.assertIn("did you mean 'cello'?", self.ends(WRONG_CASE, "explain", "celo").stderr)
