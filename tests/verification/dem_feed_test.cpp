@@ -3,6 +3,7 @@
 #include <numeric>
 #include <utility>
 
+#include "core/numerics/metric.hpp"
 #include "dem/settling.hpp"
 #include "scenes/dem_scenes.hpp"
 #include "scenes/wet_beads.hpp"
@@ -276,38 +277,47 @@ TEST(DemFeed, IsShutWhileABedSettlesAndAbsentWithoutFeeds) {
   EXPECT_EQ(dem::Model(scene, timers).feeding(), nullptr);
 }
 
-/// Water that rises slowly through a column, fed with glass from the top.
-core::Scene fed_water(int every) {
+/// Water that rises slowly through a column, fed with 144 mm3/s of glass, from the top or elsewhere.
+core::Scene fed_water(int every, core::ColumnFace at = core::ColumnFace::top) {
   core::Scene scene = wet_box(2 * r, glass.density, water, {12e-3, 24e-3, 12e-3}, {8, 16, 8});
   scene.column.closed = false;
   scene.column.gravity = 9.81;
   scene.inlet.superficial_velocity = {{0.0, 0.01}};
   scene.dem.fluid_every = every;
   scene.dem.greatest_speed = 0.3;
-  scene.feeds = {feed_of("a", core::ColumnFace::top, {{0.0, 1e-3}}, 0.1)};
+  scene.feeds = {feed_of("a", at, {{0.0, 1e-3}}, 0.1)};
+  if (is_side(at)) {
+    scene.feeds[0].from = {2e-3, 3e-3};
+    scene.feeds[0].to = {10e-3, 21e-3};
+  }
   return scene;
 }
 
-/// Solids fractions of the fluid's cells.
+/// Solids of the fluid's cells, in whole cells.
 std::vector<double> solids_of(const dem::Model& model) {
   const dem::Coupling::Column column = model.coupling()->column();
   std::vector<double> phi;
   for (int k = 0; k < column.grid.cells[2]; ++k)
     for (int j = 0; j < column.grid.cells[1]; ++j)
       for (int i = 0; i < column.grid.cells[0]; ++i)
-        phi.push_back(column.fraction[0][std::size_t(column.grid.index(i, j, k))]);
+        if (const auto c = std::size_t(column.grid.index(i, j, k)); column.grid.metric)
+          phi.push_back(column.fraction[0][c] * column.grid.metric->volume[c]);
+        else
+          phi.push_back(column.fraction[0][c]);
   return phi;
 }
 
 // In a fluid a particle enters at the end of a step of the fluid. Its volume grows in the cells as if it came through a
-// plane at the feed's velocity v, or as far as it has fallen on: pi z^2 (3 r - z)/3 at z = v t or z = 24 mm - y - r, at
-// most pi r^2 dz in a step. Forces of the fluid act on it from its first step on. 1e-9: volumes are sums of whole
-// units.
-TEST(DemFeed, GrowsInTheCellsOfAFluid) {
-  constexpr int every = 8;
-  Beads beads(fed_water(every), {{"a", {6e-3, 4e-3, 6e-3}}});
+// plane at the feed's velocity v, or as far as it has moved on: pi z^2 (3 r - z)/3 at z = v t or its distance from the
+// face less r, at most pi r^2 dz in a step. Forces of the fluid act on it from its first step on. 1e-9: volumes are
+// sums of whole units.
+void expect_growth(const core::Scene& scene) {
+  Beads beads(scene, {{"a", {6e-3, 12e-3, 6e-3}}});
   const dem::Model& model = beads.model;
-  const double cell = std::pow(1.5e-3, 3), moved = 1e-2;                           // by others in a step of the fluid
+  const core::ColumnFace at = scene.feeds[0].at;
+  const auto a = std::size_t(axis_of(at));
+  const double cell = std::pow(1.5e-3, 3), moved = 1e-2;  // by others in a step of the fluid
+  const int every = scene.dem.fluid_every.value_or(1);
   const double most = std::numbers::pi * r * r * 0.3 * every * model.limits().dt;  // at the greatest speed
   std::vector<double> since;
   for (std::vector<double> before = solids_of(model); model.time() < 0.03;) {
@@ -319,8 +329,13 @@ TEST(DemFeed, GrowsInTheCellsOfAFluid) {
     const dem::Particles& particles = model.particles();
     for (std::size_t i = 0; i < particles.owned; ++i) {
       if (particles.id[i] == 0 || std::size_t(particles.id[i]) > since.size()) continue;
-      const double fallen = 24e-3 - particles.place[i].x[1] - r, t = since[std::size_t(particles.id[i]) - 1];
-      const double z = std::min(std::max(0.1 * (model.time() - t), fallen), 2 * r);
+      const dem::Vector& x = particles.place[i].x;
+      const double way = (scene.column.is_round() && a != 1 ? 6e-3 - std::hypot(x[0] - 6e-3, x[2] - 6e-3)
+                          : side_of(at) == 0                ? x[a]
+                                                            : scene.column.size[a] - x[a]) -
+                         r,
+                   t = since[std::size_t(particles.id[i]) - 1];
+      const double z = std::min(std::max(0.1 * (model.time() - t), way), 2 * r);
       expected += std::numbers::pi * z * z * (3 * r - z) / 3;
     }
     EXPECT_NEAR(std::accumulate(now.begin(), now.end(), 0.0) * cell, expected, 1e-9 * volume);
@@ -331,6 +346,17 @@ TEST(DemFeed, GrowsInTheCellsOfAFluid) {
   }
   // 1 mm/s of 144 mm2 for 30 ms: 4.32 mm3
   EXPECT_EQ(since.size(), 8);
+}
+
+TEST(DemFeed, GrowsInTheCellsOfAFluid) {
+  using core::ColumnFace;
+  for (const ColumnFace at : {ColumnFace::top, ColumnFace::bottom, ColumnFace::left, ColumnFace::back}) {
+    SCOPED_TRACE(name_of(at));
+    expect_growth(fed_water(8, at));
+  }
+  core::Scene tube = fed_water(8, ColumnFace::left);
+  tube.column.shape = core::ColumnShape::cylinder;
+  expect_growth(tube);
 }
 
 TEST(DemFeed, InAFluidResumesWithTheSameBits) {
