@@ -1,8 +1,6 @@
 #include "tfm/conservative_convection.hpp"
 
 #include <algorithm>
-#include <array>
-#include <span>
 
 #include "core/vectors.hpp"
 #include "fluid/convection.hpp"
@@ -13,28 +11,29 @@ using core::Field;
 using core::Index;
 
 ConservativeConvection::ConservativeConvection(const Constants& constants, const fluid::Boundaries& boundaries,
-                                               bool limited)
+                                               bool limited, Fields& fields)
     : constants_(constants),
       boundaries_(boundaries),
       limited_(limited),
-      fluid_flux_(core::make_face_field(constants.grid)) {}
-
-void ConservativeConvection::begin(const Fields& fields) { fluid_flux_ = fields.fluid.flux; }
-
-void ConservativeConvection::carry_species(std::size_t j, core::FaceField& flux, Fields& fields) {
-  const auto dimensions = std::size_t(constants_.grid.dimensions);
-  std::array<fluid::Ghosts, 3> ghosts{};
-  for (std::size_t a = 0; a < dimensions; ++a) ghosts[a] = {fluid::Ghosts::Kind::joined, &flux[a]};
-  boundaries_.fill(std::span(ghosts).first(dimensions));
-  for (std::size_t a = 0; a < dimensions; ++a)
-    for (std::size_t f = 0; f < flux[a].size(); ++f) fluid_flux_[a][f] -= flux[a][f];
-  core::in_vectors<carry>(*this, flux, fields.solids.velocity[j], fields.solids.fraction[j],
-                          momentum_floor(constants_.bed_share[j]), false, fields.solids.acceleration[j]);
+      fields_(fields),
+      fluid_flux_(core::make_face_field(constants.grid)) {
+  for (core::FaceField& flux : fields.solids_flux)
+    for (int axis = 0; axis < constants.grid.dimensions; ++axis)
+      flux_ghosts_.push_back({fluid::Ghosts::Kind::joined, &flux[std::size_t(axis)]});
 }
 
-void ConservativeConvection::carry_fluid(Fields& fields) {
-  core::in_vectors<carry>(*this, fluid_flux_, fields.fluid.velocity, fields.fluid.voidage, fluid::voidage_floor, true,
-                          fields.fluid_acceleration);
+void ConservativeConvection::set() {
+  boundaries_.fill(flux_ghosts_);
+  fluid_flux_ = fields_.fluid.flux;
+  for (std::size_t j = 0; j < constants_.species(); ++j) {
+    const core::FaceField& flux = fields_.solids_flux[j];
+    for (std::size_t a = 0; a < flux.size(); ++a)
+      for (std::size_t f = 0; f < flux[a].size(); ++f) fluid_flux_[a][f] -= flux[a][f];
+    core::in_vectors<carry>(*this, flux, fields_.solids.velocity[j], fields_.solids.fraction[j],
+                            momentum_floor(constants_.bed_share[j]), false, fields_.solids.acceleration[j]);
+  }
+  core::in_vectors<carry>(*this, fluid_flux_, fields_.fluid.velocity, fields_.fluid.voidage, fluid::voidage_floor, true,
+                          fields_.fluid_acceleration);
 }
 
 void ConservativeConvection::carry(const ConservativeConvection& by, const core::FaceField& flux,

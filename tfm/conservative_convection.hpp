@@ -18,13 +18,11 @@ namespace polybed::tfm {
 class ConservativeConvection {
  public:
   /// limited: velocities are upwind with half a limited slope; otherwise upwind alone.
-  ConservativeConvection(const Constants&, const fluid::Boundaries&, bool limited);
+  /// The fields must outlive their use.
+  ConservativeConvection(const Constants&, const fluid::Boundaries&, bool limited, Fields&);
 
-  /// Called by continuity(), in this order: before all fluxes; for the flux of each species, whose ghosts are filled;
-  /// after the last. Sets the accelerations of all phases. Collective.
-  void begin(const Fields&);
-  void carry_species(std::size_t j, core::FaceField& flux, Fields&);
-  void carry_fluid(Fields&);
+  /// Sets the accelerations of all phases, and fills ghosts of the fluxes from continuity(). Collective.
+  void set();
 
  private:
   static void carry(const ConservativeConvection& by, const core::FaceField& flux, const core::FaceField& velocity,
@@ -33,7 +31,9 @@ class ConservativeConvection {
   const Constants& constants_;
   const fluid::Boundaries& boundaries_;
   bool limited_;
+  Fields& fields_;
   core::FaceField fluid_flux_;  ///< J - sum F_j, m/s, with ghosts owned by other cells
+  std::vector<fluid::Ghosts> flux_ghosts_;
 };
 
 }  // namespace polybed::tfm

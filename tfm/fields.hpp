@@ -81,6 +81,7 @@ struct Fields {
   std::vector<core::Field> share;             ///< x_j as in closures: [species][cell]
   std::vector<core::Field> slip_superficial;  ///< eps |U_f - U_j| at cell centres, m/s: [species][cell];
                                               ///< times rho_f/rho_0 if the fluid is compressible
+  std::vector<core::FaceField> solids_flux;   ///< F_j: volume flux of each species, m/s, ghosts owned by other cells
   core::FaceField fluid_acceleration;         ///< a_f, m/s2
   fluid::FluxRate flux_rate;
   SolidsStress stress;

@@ -31,10 +31,10 @@ void convect(const Metric& metric, const core::Grid& grid, const core::Field& te
   }
 }
 
-/// Adds (2/3) div(k grad theta)/((phi + floor) rho), k = phi times conductivity; flux is work space.
+/// Adds (2/3) div(k grad theta)/((phi + floor) rho), k = phi times conductivity; the species' flux is work space.
 template <class Metric>
 void conduct(const Metric& metric, const Constants& constants, const fluid::Boundaries& boundaries, std::size_t species,
-             Fields& fields, core::FaceField& flux) {
+             Fields& fields) {
   const core::Grid& grid = constants.grid;
   const double *phi = fields.solids.fraction[species].data(), *theta = fields.solids.temperature[species].data(),
                *k = fields.granular.conductivity[species].data();
@@ -43,7 +43,7 @@ void conduct(const Metric& metric, const Constants& constants, const fluid::Boun
   for (int axis = 0; axis < grid.dimensions; ++axis) {
     const Index s = grid.stride(axis);
     const double h = grid.spacing[std::size_t(axis)], half_per_length = 0.5 / h;
-    core::Field& heat = flux[std::size_t(axis)];
+    core::Field& heat = fields.solids_flux[species][std::size_t(axis)];
     std::fill(heat.begin(), heat.end(), 0.0);
     core::for_each_row(grid, core::interior_faces(grid, axis), [&](Index begin, Index end) {
       for (Index c = begin; c < end; ++c)
@@ -64,7 +64,7 @@ void conduct(const Metric& metric, const Constants& constants, const fluid::Boun
 }  // namespace
 
 void add_temperature_transport(const Constants& constants, const fluid::Boundaries& boundaries, Scheme scheme,
-                               Fields& fields, core::FaceField& flux) {
+                               Fields& fields) {
   for (std::size_t j = 0; j < constants.species(); ++j) {
     core::Field &theta = fields.solids.temperature[j], &rate = fields.solids.temperature_rate[j];
     boundaries.fill_cells(theta);
@@ -74,7 +74,7 @@ void add_temperature_transport(const Constants& constants, const fluid::Boundari
         convect<core::LimitedFace>(metric, constants.grid, theta, fields.solids.velocity[j], rate);
       else
         convect<core::UpwindFace>(metric, constants.grid, theta, fields.solids.velocity[j], rate);
-      conduct(metric, constants, boundaries, j, fields, flux);
+      conduct(metric, constants, boundaries, j, fields);
     });
   }
 }

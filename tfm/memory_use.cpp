@@ -37,13 +37,13 @@ std::size_t bytes_of(const Fields& fields) {
                             entries(f.compression.pressure_rate) + entries(f.compression.flux);
   const std::size_t working =
       entries(fields.solids_fraction) + entries(fields.share) + entries(fields.slip_superficial) +
-      entries(fields.fluid_acceleration) + entries(fields.flux_rate.free) + entries(fields.flux_rate.mobility) +
-      entries(fields.stress.pressure) + entries(fields.stress.slope) + entries(fields.stress.damping) +
-      entries(fields.stress.viscosity) + entries(fields.stress.strain) + entries(fields.stress.contact) +
-      entries(fields.stress.wall) + entries(fields.stress.upwind_work) + entries(fields.granular.conductivity) +
-      entries(fields.granular.decay) + entries(fields.species_exchange) + entries(fields.force.on_solids) +
-      entries(fields.inertia.convection) + entries(fields.inertia.share) + entries(fields.inertia.response) +
-      entries(fields.inertia.fluid_response);
+      entries(fields.solids_flux) + entries(fields.fluid_acceleration) + entries(fields.flux_rate.free) +
+      entries(fields.flux_rate.mobility) + entries(fields.stress.pressure) + entries(fields.stress.slope) +
+      entries(fields.stress.damping) + entries(fields.stress.viscosity) + entries(fields.stress.strain) +
+      entries(fields.stress.contact) + entries(fields.stress.wall) + entries(fields.stress.upwind_work) +
+      entries(fields.granular.conductivity) + entries(fields.granular.decay) + entries(fields.species_exchange) +
+      entries(fields.force.on_solids) + entries(fields.inertia.convection) + entries(fields.inertia.share) +
+      entries(fields.inertia.response) + entries(fields.inertia.fluid_response);
   return (solids + fluid + working) * sizeof(double);
 }
 

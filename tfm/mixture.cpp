@@ -18,6 +18,7 @@ Fields::Fields(const Constants& constants)
       solids_fraction(core::make_field(constants.grid)),
       share(constants.species(), core::make_field(constants.grid)),
       slip_superficial(constants.species(), core::make_field(constants.grid)),
+      solids_flux(constants.species(), core::make_face_field(constants.grid)),
       fluid_acceleration(core::make_face_field(constants.grid)),
       flux_rate(constants.grid) {
   solids.carry_pressure = !constants.form_b;

@@ -25,8 +25,7 @@ RightHandSide::RightHandSide(const core::Scene& scene, Constants constants, flui
       timers_(timers),
       fields_(constants_),
       effects_(make_effects(scene, constants_, boundaries_, fields_)),
-      flux_(core::make_face_field(constants_.grid)),
-      convection_(constants_, boundaries_, discretisation_.momentum == Scheme::limited),
+      convection_(constants_, boundaries_, discretisation_.momentum == Scheme::limited, fields_),
       viscous_weight_(fields_.stress.viscosity) {
   using Kind = fluid::Ghosts::Kind;
   for (core::Field& phi : fields_.solids.fraction) state_ghosts_.push_back({Kind::cells, &phi});
@@ -41,7 +40,7 @@ RightHandSide::RightHandSide(const core::Scene& scene, Constants constants, flui
 //
 //   (1) dphi_j/dt = -div(phi_j U_j)
 //   (2) dU_j/dt   = a_j - grad p / rho_j
-//       a_j = -(U_j.grad)U_j + (1 - rho_f/rho_j) g - grad p_s/(phi rho_j) + (b_j/rho_j)(U_f - U_j)
+//       a_j = -(U_j.grad)U_j + (1 - rho_f/rho_j) g + (b_j/rho_j)(U_f - U_j) - grad p_s/(phi rho_j)
 //             + div(phi_j T_j)/((phi_j + 1e-4 X_j) rho_j) + sum_k K_jk (U_k - U_j)/(phi_j rho_j) + f_j/rho_j
 //   (3) a_f = -(U_f.grad)U_f + div(eps tau)/(eps rho_f) - sum_j phi_j [b_j (U_f - U_j) + f_j]/(eps rho_f)
 //   (4) dJ/dt = eps a_f + sum_j phi_j a_j + sum_j (U_j - U_f) dphi_j/dt - B grad p
@@ -65,9 +64,9 @@ bool RightHandSide::evaluate(double t, const StateLayout& layout, std::span<cons
     superficial_slip(constants_, boundaries_, fields_);
     if (effects_.compressible) weigh_slip_by_density(constants_, fields_);
   });
-  timed("convection", [&] {
-    continuity(constants_, boundaries_, discretisation_.flux, side_of(t), fields_, flux_, first_order_, &convection_);
-  });
+  timed("continuity",
+        [&] { continuity(constants_, boundaries_, discretisation_.flux, side_of(t), fields_, first_order_); });
+  timed("convection", [&] { convection_.set(); });
   if (effects_.inertia) timed("added mass", [&] { effects_.inertia->keep_convection(fields_); });
   if (effects_.fluid_stress) timed("fluid stress", [&] { effects_.fluid_stress->add(fields_); });
   timed("gravity", [&] {
@@ -109,7 +108,7 @@ void RightHandSide::hold_solids_above(int row) {
   // Clear older results above the row.
   const auto clear = [](core::Field& field) { std::fill(field.begin(), field.end(), 0.0); };
   const auto clear_all = [&](auto& list) { std::for_each(list.begin(), list.end(), clear); };
-  clear_all(flux_);
+  std::for_each(fields_.solids_flux.begin(), fields_.solids_flux.end(), clear_all);
   clear_all(fields_.slip_superficial);
   clear_all(fields_.species_exchange);
   clear_all(fields_.solids.exchange);
@@ -133,7 +132,7 @@ std::optional<fluid::MassFlow> RightHandSide::mass_flow(double t, const StateLay
   set_inlet_velocity(t);
   constants_.openings.follow(fields_.fluid.flux, fields_.solids);
   if (!effects_.compressible->set_density(fields_.fluid)) return std::nullopt;
-  fluid_flux_through_ends(constants_, boundaries_, side_of(t), fields_, flux_);
+  fluid_flux_through_ends(constants_, boundaries_, side_of(t), fields_);
   return fluid::mass_flow(constants_.grid, boundaries_, fields_.fluid, fields_.fluid.compression.flux);
 }
 
@@ -147,7 +146,7 @@ void RightHandSide::add_solids_stress() {
     if (effects_.solids_viscosity) effects_.solids_viscosity->add(fields_);
     if (effects_.collisions) effects_.collisions->add(fields_);
     if (!fields_.solids.temperature_rate.empty())
-      add_temperature_transport(constants_, boundaries_, discretisation_.flux, fields_, flux_);
+      add_temperature_transport(constants_, boundaries_, discretisation_.flux, fields_);
     boundaries_.fill_cells(stress.viscosity);
     if (effects_.solids_wall) effects_.solids_wall->fill_ghosts(fields_);
     add_solids_viscosity(constants_, boundaries_, fields_, viscous_weight_);

@@ -9,6 +9,7 @@
 #include "core/timers.hpp"
 #include "fluid/fluid_mass.hpp"
 #include "fluid/inlet.hpp"
+#include "tfm/conservative_convection.hpp"
 #include "tfm/effects.hpp"
 #include "tfm/solids.hpp"
 #include "tfm/state_layout.hpp"
@@ -69,7 +70,6 @@ class RightHandSide {
   core::Timers& timers_;
   Fields fields_;
   Effects effects_;
-  core::FaceField flux_;
   ConservativeConvection convection_;
   int solids_rows_ = std::numeric_limits<int>::max();
   const FaceList* first_order_ = nullptr;

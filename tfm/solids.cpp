@@ -108,14 +108,14 @@ void add_species_exchange_loops(const Constants& constants, const fluid::Boundar
 }  // namespace
 
 void continuity(const Constants& constants, const fluid::Boundaries& boundaries, Scheme scheme, double t,
-                Fields& fields, core::FaceField& flux, const FaceList* first_order, ConservativeConvection* momentum) {
+                Fields& fields, const FaceList* first_order) {
   const core::Grid& grid = constants.grid;
   const bool compressible = fields.fluid.compression.present();
   if (compressible) fields.fluid.compression.flux = fields.fluid.flux;
-  if (momentum != nullptr) momentum->begin(fields);
   for (std::size_t j = 0; j < constants.species(); ++j) {
     const Field& phi = fields.solids.fraction[j];
     const core::FaceField& velocity = fields.solids.velocity[j];
+    core::FaceField& flux = fields.solids_flux[j];
     if (scheme == Scheme::limited)
       core::in_vectors<solids_flux<LimitedFractionFace>>(grid, boundaries, phi, velocity, flux);
     else
@@ -123,19 +123,17 @@ void continuity(const Constants& constants, const fluid::Boundaries& boundaries,
     if (first_order != nullptr) redo_upwind(grid, *first_order, phi, velocity, flux);
     if (constants.openings.present()) constants.openings.cross(t, j, fields.solids, flux);
     if (compressible) subtract(flux, fields.fluid.compression.flux);
-    if (momentum != nullptr) momentum->carry_species(j, flux, fields);
     Field& rate = fields.solids.fraction_rate[j];
     core::divergence(grid, flux, rate);
     for (double& r : rate) r = -r;
   }
-  if (momentum != nullptr) momentum->carry_fluid(fields);
   boundaries.fill_cells(fields.solids.fraction_rate);
   for (std::size_t j = 0; j < constants.species() && constants.openings.present(); ++j)
     constants.openings.set_rate_ghosts(t, j, fields.solids);
 }
 
-void fluid_flux_through_ends(const Constants& constants, const fluid::Boundaries& boundaries, double t, Fields& fields,
-                             core::FaceField& flux) {
+void fluid_flux_through_ends(const Constants& constants, const fluid::Boundaries& boundaries, double t,
+                             Fields& fields) {
   const auto on_ends = [&](auto&& body) {
     const auto see = [&](core::ColumnFace at) {
       fluid::for_each_boundary_row(constants.grid, axis_of(at), side_of(at), [&](Index begin, Index end) {
@@ -149,6 +147,7 @@ void fluid_flux_through_ends(const Constants& constants, const fluid::Boundaries
   core::FaceField& own = fields.fluid.compression.flux;
   on_ends([&](std::size_t a, std::size_t c) { own[a][c] = fields.fluid.flux[a][c]; });
   for (std::size_t j = 0; j < constants.species() && constants.openings.present(); ++j) {
+    core::FaceField& flux = fields.solids_flux[j];
     constants.openings.cross(t, j, fields.solids, flux);
     on_ends([&](std::size_t a, std::size_t c) { own[a][c] -= flux[a][c]; });
   }

@@ -9,7 +9,6 @@
 #pragma once
 
 #include "fluid/boundaries.hpp"
-#include "tfm/conservative_convection.hpp"
 #include "tfm/fields.hpp"
 #include "tfm/first_order_fallback.hpp"
 
@@ -22,16 +21,14 @@ constexpr double stress_fraction_floor = 1e-3;
 enum class Scheme { upwind, limited };
 
 /// (1): fraction_rate = -div F_j with F_j = U_j times upwind phi_j, with half a limited slope if `limited`, and with
-/// the flow through the ends at time t. Fills ghosts of the rate. flux_j is work space. For a compressible fluid also
-/// sets its own flux, J - sum F_j.
+/// the flow through the ends at time t. Fills ghosts of the rate. For a compressible fluid also sets its own flux,
+/// J - sum F_j.
 /// \param first_order  faces with plain upwind phi_j whatever the scheme; null: none
-/// \param momentum  convection with these fluxes; null: none
-void continuity(const Constants&, const fluid::Boundaries&, Scheme, double t, Fields&, core::FaceField& flux,
-                const FaceList* first_order, ConservativeConvection* momentum);
+void continuity(const Constants&, const fluid::Boundaries&, Scheme, double t, Fields&, const FaceList* first_order);
 
 /// For a compressible fluid: sets its own flux, J - sum F_j, only on the faces of the ends and of sides with flow, to
-/// the values from continuity(). Reads J, U_j and phi_j on the owned faces and cells. flux is work space.
-void fluid_flux_through_ends(const Constants&, const fluid::Boundaries&, double t, Fields&, core::FaceField& flux);
+/// the values from continuity(). Reads J, U_j and phi_j on the owned faces and cells.
+void fluid_flux_through_ends(const Constants&, const fluid::Boundaries&, double t, Fields&);
 
 /// Adds the buoyant weight, (1 - rho_f/rho_j) g, along every axis with a component of gravity.
 void add_gravity(const Constants&, const fluid::Boundaries&, Fields&);

@@ -127,13 +127,13 @@ Terms central_flux(const tfm::Model& model) {
 
 Terms advective_momentum(const core::Scene& scene, const tfm::Model& model) {
   const auto carried = std::make_shared<tfm::Fields>(model.constants());
-  const auto flux = std::make_shared<core::FaceField>(core::make_face_field(model.constants().grid));
   const tfm::Scheme scheme = discretisation_of(scene.tfm, model).flux;
   return [=](const tfm::RightHandSide& equations, tfm::Fields& fields) {
     const tfm::Constants& constants = equations.constants();
-    tfm::ConservativeConvection conservative(constants, equations.boundaries(), false);
+    tfm::ConservativeConvection conservative(constants, equations.boundaries(), false, *carried);
     *carried = fields;
-    tfm::continuity(constants, equations.boundaries(), scheme, 0, *carried, *flux, nullptr, &conservative);
+    tfm::continuity(constants, equations.boundaries(), scheme, 0, *carried, nullptr);
+    conservative.set();
     const auto replace = [&](bool of_fluid, const core::FaceField& velocity, const core::FaceField& by,
                              core::FaceField& acceleration) {
       for (int axis = 0; axis < constants.grid.dimensions; ++axis) {
