@@ -100,7 +100,10 @@ struct Fields {
   return j * (2 * n - j - 1) / 2 + (k - j - 1);
 }
 
-/// Memory of the fields, bytes; memory_use.cpp.
+/// Memory of the fields, bytes.
 [[nodiscard]] std::size_t bytes_of(const Fields& fields);
+
+/// Sets the fields to 0 that the solids' equations set only in the rows of Boundaries::with_solids.
+void clear_results_of_solids(Fields& fields);
 
 }  // namespace polybed::tfm

@@ -12,21 +12,6 @@ using core::face_mean;
 using core::Field;
 using core::Index;
 
-Fields::Fields(const Constants& constants)
-    : solids(constants.grid, constants.density),
-      fluid(constants.grid),
-      solids_fraction(core::make_field(constants.grid)),
-      share(constants.species(), core::make_field(constants.grid)),
-      slip_superficial(constants.species(), core::make_field(constants.grid)),
-      solids_flux(constants.species(), core::make_face_field(constants.grid)),
-      fluid_acceleration(core::make_face_field(constants.grid)),
-      flux_rate(constants.grid) {
-  solids.carry_pressure = !constants.form_b;
-  if (!constants.openings.present()) return;
-  solids.passed.assign(constants.species(), constants.openings.make_passed());
-  solids.passed_rate = solids.passed;
-}
-
 namespace {
 
 void composition_loops(const Constants& constants, Fields& fields) {

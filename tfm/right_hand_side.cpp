@@ -105,25 +105,7 @@ void RightHandSide::hold_solids_above(int row) {
   if (row == solids_rows_) return;
   solids_rows_ = row;
   boundaries_.hold_solids_above(row);
-  // Clear older results above the row.
-  const auto clear = [](core::Field& field) { std::fill(field.begin(), field.end(), 0.0); };
-  const auto clear_all = [&](auto& list) { std::for_each(list.begin(), list.end(), clear); };
-  std::for_each(fields_.solids_flux.begin(), fields_.solids_flux.end(), clear_all);
-  clear_all(fields_.slip_superficial);
-  clear_all(fields_.species_exchange);
-  clear_all(fields_.solids.exchange);
-  clear_all(fields_.solids.temperature_rate);
-  std::for_each(fields_.solids.acceleration.begin(), fields_.solids.acceleration.end(), clear_all);
-  SolidsStress& stress = fields_.stress;
-  for (core::Field* field :
-       {&stress.pressure, &stress.slope, &stress.damping, &stress.contact, &stress.viscosity, &stress.wall})
-    clear(*field);
-  clear_all(stress.strain);
-  clear_all(stress.upwind_work);
-  clear_all(fields_.granular.conductivity);
-  clear_all(fields_.granular.decay);
-  std::for_each(fields_.inertia.share.begin(), fields_.inertia.share.end(), clear_all);
-  std::for_each(fields_.inertia.response.begin(), fields_.inertia.response.end(), clear_all);
+  clear_results_of_solids(fields_);  // older ones above the row
 }
 
 std::optional<fluid::MassFlow> RightHandSide::mass_flow(double t, const StateLayout& layout,
