@@ -31,7 +31,7 @@ std::string partition_note(const core::Scene& scene, const relevance::FluidConst
   const double deviation = closures::deviation_from_base(law, voidage, reynolds, share, diameter, f);
   if (!law.partition || std::abs(deviation) < 1e-9) return "";
   return fmt::format("drag of all species together: {:+.2f} % of the mean law {} in the settled bed, by {}",
-                     100 * deviation, core::law_of(scene, "drag"), core::law_of(scene, "partition"));
+                     100 * deviation, scene.drag().name, scene.partition().name);
 }
 
 /// For several species without a partition.
@@ -54,10 +54,8 @@ std::string sum_note(const core::Scene& scene, const std::string& named) {
 }  // namespace
 
 std::vector<std::string> notes_on_drag(const core::Scene& scene, const relevance::FluidConstants& fluid) {
-  const auto named = scene.effects.find("drag");
-  if (named == scene.effects.end()) return {"drag is off: nothing couples the solids to the fluid"};
-  std::string note =
-      scene.effects.contains("partition") ? partition_note(scene, fluid) : sum_note(scene, named->second);
+  if (!scene.drag().given) return {"drag is off: nothing couples the solids to the fluid"};
+  std::string note = scene.partition().given ? partition_note(scene, fluid) : sum_note(scene, scene.drag().name);
   return note.empty() ? std::vector<std::string>() : std::vector{std::move(note)};
 }
 

@@ -68,11 +68,10 @@ core::Json json_of(const std::vector<InversionPoint>& points) {
 
 void print_json(const core::Scene& scene, const std::string& method, const std::vector<InversionPoint>& points,
                 const std::vector<Band>& band, const InversionBeside& beside, std::optional<std::size_t> on_top) {
-  core::Json json = {
-      {"law", core::law_of(scene, "drag")},
-      {"partition", core::text_or_null(scene.effects.contains("partition") ? core::law_of(scene, "partition") : "")},
-      {"velocity_m_s", nullptr},
-      {"voidage", nullptr}};
+  core::Json json = {{"law", scene.drag().name},
+                     {"partition", core::text_or_null(scene.partition().given ? scene.partition().name : "")},
+                     {"velocity_m_s", nullptr},
+                     {"voidage", nullptr}};
   if (!points.empty()) json.update(json_of(points).back());
   json["on_top"] = nullptr;
   if (on_top) json["on_top"] = {{"below", scene.species[*on_top].name}, {"above", scene.species[1 - *on_top].name}};
@@ -155,8 +154,8 @@ void print_methods(std::vector<MethodRow> rows, const core::Scene& scene) {
     std::stable_sort(first, last, [&](const auto& a, const auto& b) { return velocity(a) < velocity(b); });
     first = last;
   }
-  const std::string drag = core::law_of(scene, "drag");
-  const std::string partition = scene.effects.contains("partition") ? core::law_of(scene, "partition") : "";
+  const std::string drag = scene.drag().name;
+  const std::string partition = scene.partition().given ? scene.partition().name : "";
   core::print("  {:16} {:20} {:16} {:>8} {:>8}\n", "method", "law", "partition", "mm/s", "voidage");
   for (const MethodRow& row : rows) {
     const char* mark = row.law == drag && row.partition == partition ? "*" : " ";
@@ -195,8 +194,8 @@ const std::vector<Recommended>& recommended() {
 
 /// The most relevant rows, on one screen.
 void print_best_methods(const std::vector<MethodRow>& rows, const core::Scene& scene) {
-  const std::string drag = core::law_of(scene, "drag");
-  const std::string partition = scene.effects.contains("partition") ? core::law_of(scene, "partition") : "";
+  const std::string drag = scene.drag().name;
+  const std::string partition = scene.partition().given ? scene.partition().name : "";
   const std::string balance = inversion_methods().front().name;
   const auto is_pair = [](const MethodRow& row, const std::string& law, const std::string& shared_by) {
     return row.law == law && row.partition == shared_by;
@@ -230,7 +229,7 @@ void print_best_methods(const std::vector<MethodRow>& rows, const core::Scene& s
                 velocities.back(), velocities[n / 4], velocities[(3 * n) / 4]);
   else
     core::print("no law or pair within its range finds a point\n{}",
-                !core::acts(scene, "drag") ? "" : line_without_point(scene, relevance::drag_law_of(scene)));
+                !scene.drag().acts() ? "" : line_without_point(scene, relevance::drag_law_of(scene)));
   if (unsuited > 0) core::print("outside their range at their point, not counted: {} laws and pairs\n", unsuited);
   core::print("other methods:\n");
   for (const MethodRow& row : rows)
@@ -279,7 +278,7 @@ void print_composition(const core::Scene& scene, const closures::DragLaw& law, c
     core::print("{:6.2f} {} {:>17}\n", share, point, interval);
   }
   if (options.json)
-    core::print("{}\n", core::json_text({{"law", core::law_of(scene, "drag")},
+    core::print("{}\n", core::json_text({{"law", scene.drag().name},
                                          {"method", options.method},
                                          {"species", scene.species[1].name},
                                          {"composition", rows}}));
@@ -287,10 +286,10 @@ void print_composition(const core::Scene& scene, const closures::DragLaw& law, c
 
 /// --law replaces the mean law alone.
 void tell_of_the_partition(const InversionOptions& options, const core::Scene& scene) {
-  if (options.law.empty() || !options.partition.empty() || !scene.effects.contains("partition")) return;
+  if (options.law.empty() || !options.partition.empty() || !scene.partition().given) return;
   core::print(stderr,
               "--law {} is shared among the species by partition = \"{}\" of the case; --partition none: by itself\n",
-              options.law, core::law_of(scene, "partition"));
+              options.law, scene.partition().name);
 }
 
 void run_without_a_run(const InversionOptions& options) {
@@ -300,8 +299,7 @@ void run_without_a_run(const InversionOptions& options) {
     if (options.json) return print_methods_json(rows);
     return options.details ? print_methods(rows, scene) : print_best_methods(rows, scene);
   }
-  const auto named = scene.effects.find("drag");
-  if (named == scene.effects.end()) throw core::CaseError("inversion needs a drag law: [effects] drag = ..., or --law");
+  if (!scene.drag().given) throw core::CaseError("inversion needs a drag law: [effects] drag = ..., or --law");
   const closures::DragLaw law = relevance::drag_law_of(scene);
   const std::string name = relevance::drag_name_of(scene);
   tell_of_the_partition(options, scene);

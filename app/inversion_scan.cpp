@@ -23,7 +23,7 @@ struct ScanRange {
 /// From the force balance with the case's law; empty without a law or a root.
 std::optional<InversionPoint> force_balance(const core::Scene& scene) {
   const BinaryBed bed = binary_bed(scene);  // rejects other numbers of species
-  if (!scene.effects.contains("drag")) return std::nullopt;
+  if (!scene.drag().given) return std::nullopt;
   const auto points = inversion_points(bed, relevance::drag_law_of(scene), "force_balance");
   return points.empty() ? std::nullopt : std::optional(points.back());
 }

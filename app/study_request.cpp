@@ -27,14 +27,13 @@ core::Json common_request(const RunOptions& options, const std::string& kind) {
 void run_closure_uncertainty(const RunOptions& options, const std::string& kind, const Models& models,
                              const std::string& method) {
   const core::Scene scene = read_scene(options, models);
-  if (!scene.effects.contains("drag"))
-    throw core::CaseError("--closure-uncertainty is that of a drag law: [effects] drag = ...");
+  if (!scene.drag().given) throw core::CaseError("--closure-uncertainty is that of a drag law: [effects] drag = ...");
   const relevance::FluidConstants fluid = relevance::fluid_constants(scene.fluid);
   core::Json json = common_request(options, kind);
   json.update({{"kind", kind},
                {"method", method},
-               {"law", core::law_of(scene, "drag")},
-               {"partition", core::law_of(scene, "partition")},
+               {"law", scene.drag().name},
+               {"partition", scene.partition().name},
                {"fluid", {{"density", fluid.density}, {"viscosity", fluid.viscosity}}}});
   become_python("polybed.study.closure_uncertainty", {core::json_text(json)});
 }

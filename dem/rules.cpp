@@ -56,7 +56,7 @@ std::vector<core::Rule> key_rules() {
       {{"dem.held", "fluid.name", "effects.drag"},
        "dem.held = true without drag: nothing resists the flow through the bed; name a law in effects.drag",
        [](const core::Scene& scene) {
-         return core::broken_if(scene.bed.held && scene.fluid.present() && !scene.effects.contains("drag"));
+         return core::broken_if(scene.bed.held && scene.fluid.present() && !scene.drag().given);
        }},
       {{"dem.kernel_width", "dem.kernel"},
        "dem.kernel_width cannot act: dem.kernel = \"bilinear\" has the width of the cells; use \"diffusion\" or "

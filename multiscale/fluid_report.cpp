@@ -11,10 +11,9 @@ namespace polybed::multiscale {
 
 FluidReport fluid_report(const core::Scene& scene, const dem::Coupling& coupling, const dem::FluidTotals& totals,
                          double dt, std::optional<double> work) {
-  const auto drag = scene.effects.find("drag");
   return {totals,
           coupling.kernel_width() > 0 ? "diffusion" : "bilinear",
-          drag == scene.effects.end() ? "none" : relevance::drag_name_of(scene),
+          scene.drag().given ? relevance::drag_name_of(scene) : "none",
           coupling.flow().grid().ranks != nullptr,
           coupling.kernel_width(),
           coupling.every(),

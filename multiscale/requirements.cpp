@@ -117,7 +117,7 @@ void estimate_steps(const core::Scene& scene, const tfm::Model& model, Requireme
   };
   const double rest = scene.bed.solids_fraction;
   need.rest = need.lifted = need.expanded = state(rest);
-  if (!scene.effects.contains("drag") || !(velocity > 0)) return;
+  if (!scene.drag().given || !(velocity > 0)) return;
   const double expanded = tfm::expanded_fraction(constants, relevance::drag_law_of(scene), velocity, rest);
   if (expanded == rest) return;
   need.expanded = state(expanded);

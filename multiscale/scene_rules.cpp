@@ -201,7 +201,7 @@ core::Scene read_chosen_case(const std::filesystem::path& path, const std::vecto
   if (!chosen.chooser.chosen.empty()) refuse(chosen, models);  // chosen effects in addition to given ones
   choose_stiffness(chosen);
   choose_fluid_every(chosen);
-  if (const auto file = relevance::drag_file(core::law_of(chosen, "drag")))
+  if (const auto file = relevance::drag_file(chosen.drag().name))
     chosen.drag_record = relevance::record_of(*file, relevance::read_drag_file(*file));
   return chosen;
 }

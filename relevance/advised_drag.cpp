@@ -99,10 +99,10 @@ bool is_mean_law(const std::string& law) {
 }
 
 AdvisedDrag drag_taken(const core::Scene& scene, const Survey& survey) {
-  const bool named = core::names_law(scene, "drag");
+  const bool named = core::is_law(scene.drag().name);
   const AdvisedDrag advised = advised_drag(scene, drag_scene_of(scene, survey));
-  AdvisedDrag taken{named ? core::law_of(scene, "drag") : advised.law};
-  const std::string partition = core::law_of(scene, "partition");
+  AdvisedDrag taken{named ? scene.drag().name : advised.law};
+  const std::string partition = scene.partition().name;
   if (core::is_law(partition))
     taken.partition = partition;
   else if (partition == core::automatic && is_mean_law(taken.law))

@@ -30,12 +30,12 @@ namespace polybed::relevance {
 
 /// The drag law of a case, with its shapes. Throws std::invalid_argument also where the case has no law.
 [[nodiscard]] inline closures::DragLaw drag_law_of(const core::Scene& scene) {
-  return with_shape(drag_law_named(core::law_of(scene, "drag"), core::law_of(scene, "partition")), scene);
+  return with_shape(drag_law_named(scene.drag().name, scene.partition().name), scene);
 }
 
 /// Its name for reports: "wen_yu", or "wen_yu x brinkman_oseen x ganser".
 [[nodiscard]] inline std::string drag_name_of(const core::Scene& scene) {
-  std::string name = core::law_of(scene, "drag");
+  std::string name = scene.drag().name;
   for (const char* part : {"partition", "shape"})
     if (const auto law = scene.effects.find(part); law != scene.effects.end()) name += " x " + law->second;
   return name;

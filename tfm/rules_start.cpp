@@ -111,7 +111,7 @@ Broken settled_and_light(const Scene& scene) {
 
 Broken split_without_drag(const Scene& scene) {
   const bool split = scene.tfm.integrator == core::TfmIntegrator::split_steps;
-  if (!split || (!scene.fluid.compressible() && core::acts(scene, "drag"))) return {};
+  if (!split || (!scene.fluid.compressible() && scene.drag().acts())) return {};
   return Broken({scene.fluid.compressible() ? "an incompressible fluid" : "a drag law"});
 }
 

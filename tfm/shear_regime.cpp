@@ -21,9 +21,9 @@ namespace polybed::tfm {
 namespace {
 
 closures::DragLaw law_of_scene(const core::Scene& scene) {
-  if (!core::acts(scene, "drag"))
+  if (!scene.drag().acts())
     throw core::CaseError("calibrate: particles in a fluid need a drag law: [effects] drag = ..., see polybed list");
-  return relevance::with_shape(relevance::drag_law_named(core::law_of(scene, "drag")), scene);
+  return relevance::with_shape(relevance::drag_law_named(scene.drag().name), scene);
 }
 
 /// Voidage at which drag balances the buoyant weight of one species alone, in [0.4, 0.99].

@@ -84,7 +84,7 @@ std::vector<TimeScale> time_scales_of_bed(const core::Scene& scene, const Consta
   const auto scale = [](double rate) { return rate > 0 ? 1 / rate : infinite; };
   const double speed = std::max(bed.velocity / (1 - bed.solids_fraction), greatest_terminal_velocity(constants));
   std::vector<TimeScale> scales{{"convection", scale(speed / h), 0}};
-  if (effects.drag && scene.effects.contains("drag")) {
+  if (effects.drag && scene.drag().given) {
     const DragRates drag = drag_rates(constants, relevance::drag_law_of(scene), bed);
     scales.push_back({"drag", scale(split ? drag.slow : drag.whole), 0});
   }

@@ -102,7 +102,10 @@ std::string text_of(const Start& start) {
 
 bool is_off(const std::string& law) { return law == "none"; }
 
-bool is_law(const std::string& law) { return !is_off(law) && law != automatic; }
+ChosenLaw Scene::law(const std::string& role) const {
+  const auto found = effects.find(role);
+  return found == effects.end() ? ChosenLaw() : ChosenLaw{found->second, true};
+}
 
 bool all_spheres(const Scene& scene) {
   return std::all_of(scene.species.begin(), scene.species.end(), [](const Species& s) { return s.sphericity == 1; });

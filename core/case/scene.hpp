@@ -322,6 +322,20 @@ struct SizeClasses {
   std::vector<double> diameter, share;  ///< m; of the volume of this distribution
 };
 
+/// The word in place of a law with which the chooser decides.
+inline constexpr const char* automatic = "auto";
+
+/// Whether a word in [effects] turns the role off; whether it names a law, so does not leave the role to the chooser.
+[[nodiscard]] bool is_off(const std::string& law);
+[[nodiscard]] inline bool is_law(const std::string& law) { return !is_off(law) && law != automatic; }
+
+/// The entry of a role in [effects].
+struct ChosenLaw {
+  std::string name = "none";
+  bool given = false;                                        ///< whether [effects] contains the role
+  [[nodiscard]] bool acts() const { return !is_off(name); }  ///< has a law or is left to the chooser
+};
+
 /// Made, copied and destroyed in one source, so that no other source compiles code for its many members.
 struct Scene {
   Scene();
@@ -359,26 +373,17 @@ struct Scene {
   std::string drag_record;
   std::vector<std::string> overrides;  ///< "key=value" of the command line, as given
   Places places;                       ///< of the keys and tables of the case: a record, not read again
+
+  [[nodiscard]] ChosenLaw law(const std::string& role) const;
+  [[nodiscard]] ChosenLaw drag() const { return law("drag"); }
+  [[nodiscard]] ChosenLaw partition() const { return law("partition"); }
 };
 
-/// The word in place of a law with which the chooser decides.
-inline constexpr const char* automatic = "auto";
-
 /// The law of a role in [effects]; "none" if the scene names none.
-[[nodiscard]] inline std::string law_of(const Scene& scene, const std::string& role) {
-  const auto found = scene.effects.find(role);
-  return found == scene.effects.end() ? "none" : found->second;
-}
-
-/// Whether a word in [effects] turns the role off.
-[[nodiscard]] bool is_off(const std::string& law);
-/// Whether it names a law, so neither turns the role off nor leaves it to the chooser.
-[[nodiscard]] bool is_law(const std::string& law);
+[[nodiscard]] inline std::string law_of(const Scene& scene, const std::string& role) { return scene.law(role).name; }
 
 /// Whether a role has a law or is left to the chooser.
-[[nodiscard]] inline bool acts(const Scene& scene, const std::string& role) { return !is_off(law_of(scene, role)); }
-/// Whether the scene names the law of the role itself.
-[[nodiscard]] inline bool names_law(const Scene& scene, const std::string& role) { return is_law(law_of(scene, role)); }
+[[nodiscard]] inline bool acts(const Scene& scene, const std::string& role) { return scene.law(role).acts(); }
 
 /// Whether every species is of spheres.
 [[nodiscard]] bool all_spheres(const Scene& scene);

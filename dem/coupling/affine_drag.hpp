@@ -81,7 +81,7 @@ class AffineDrag final : public KeptPart {
 
 /// Whether the drag in a scene is for a sheared box.
 [[nodiscard]] inline bool has_affine_drag(const core::Scene& scene) {
-  return scene.fluid.present() && scene.column.shear_rate != 0 && core::acts(scene, "drag");
+  return scene.fluid.present() && scene.column.shear_rate != 0 && scene.drag().acts();
 }
 
 }  // namespace polybed::dem

@@ -36,9 +36,8 @@ constexpr int heights = 9, blocks_of_a_bed = 20;
 /// Superficial velocity at which drag balances the buoyant weight at a voidage.
 double carrying_velocity(const core::Scene& scene, const MeanSphere& mean, double voidage) {
   const relevance::FluidConstants fluid = relevance::fluid_constants(scene.fluid);
-  if (!core::acts(scene, "drag"))
-    throw core::CaseError("calibrate.regime = \"bed\" needs a drag law: [effects] drag = ...");
-  const closures::DragLaw law = relevance::drag_law_named(core::law_of(scene, "drag"));
+  if (!scene.drag().acts()) throw core::CaseError("calibrate.regime = \"bed\" needs a drag law: [effects] drag = ...");
+  const closures::DragLaw law = relevance::drag_law_named(scene.drag().name);
   return closures::carrying_velocity(
       [&](double eps, double reynolds) { return closures::pure_drag_at(law, eps, reynolds); },
       {mean.diameter, std::abs(mean.density - fluid.density), fluid.density, fluid.viscosity, scene.column.gravity},

@@ -96,9 +96,8 @@ void make_wet(core::Scene& box, const core::Scene& scene, const BoxPoint& point,
   const double duration = pi * std::sqrt(scales.least_mass / stiffness) / std::sqrt(1 - beta * beta);
   double step = duration / steps_per_contact;
   box.fluid = scene.fluid;
-  box.effects["drag"] = core::law_of(scene, "drag");
-  if (const auto partition = scene.effects.find("partition"); partition != scene.effects.end())
-    box.effects.insert(*partition);
+  box.effects["drag"] = scene.drag().name;
+  if (scene.partition().given) box.effects["partition"] = scene.partition().name;
   if (core::acts(scene, "lubrication")) {
     box.effects["lubrication"] = core::law_of(scene, "lubrication");
     box.material.roughness = std::max(scene.material.roughness, least_film * d);

@@ -77,9 +77,9 @@ Balance balance_of(const core::Scene& scene) {
   Balance balance;
   const double solids = core::settled_fractions(scene).of_bed;
   if (solids > 0 && solids < 1) balance.packed = 1 - solids;
-  if (!scene.effects.contains("drag")) return balance;
+  if (!scene.drag().given) return balance;
   balance.law = relevance::drag_law_of(scene);
-  if (balance.known()) balance.name = core::law_of(scene, "drag");
+  if (balance.known()) balance.name = scene.drag().name;
   return balance;
 }
 

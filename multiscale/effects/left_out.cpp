@@ -56,7 +56,7 @@ bool is_among(const std::vector<LeftOutEffect>& effects, const std::string& effe
 
 /// The error of a law in any model: it ignores neighbours in a bed.
 std::string wrong_drag_of(const core::Scene& scene, const relevance::Choice& choice) {
-  const std::string law = core::law_of(scene, "drag");
+  const std::string law = scene.drag().name;
   const relevance::EffectRow* drag = relevance::find_row(choice.rows, "drag");
   return drag != nullptr && drag->model != law && relevance::ignores_neighbours(law) ? drag->reason : "";
 }
@@ -174,7 +174,7 @@ std::string called_for_line(const LeftOut& left_out) {
 }
 
 std::string unsuited_line(const core::Scene& scene) {
-  const std::string law = core::law_of(scene, "drag");
+  const std::string law = scene.drag().name;
   if (core::is_off(law) || relevance::ignores_neighbours(law)) return "";  // called_for_line covers the latter
   const relevance::Survey survey = relevance::survey(scene);
   const std::string why = relevance::unsuited(law, survey.drag_scene);

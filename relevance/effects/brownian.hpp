@@ -40,7 +40,7 @@ inline const Effect brownian{
               rule_of("brownian", {"effects.drag", "dem.held"},
                       "effects.brownian = \"{}\" moves particles against their drag: name a law of effects.drag, and "
                       "leave out dem.held",
-                      [](const core::Scene& scene) { return scene.bed.held || !core::acts(scene, "drag"); })},
+                      [](const core::Scene& scene) { return scene.bed.held || !scene.drag().acts(); })},
     .number = "1/Pe",
     .phrase = "random motion by heat: {} the settling of a particle",
     .weigh = weigh_brownian};

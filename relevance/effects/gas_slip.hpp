@@ -32,7 +32,7 @@ inline std::optional<EffectRow> weigh_gas_slip(const Weighing& by, EffectRow row
 
 /// Broken if the fluid is a liquid; another rule covers a fluid without known properties.
 inline core::Broken slips_on_a_liquid(const core::Scene& scene) {
-  if (!core::names_law(scene, "gas_slip") || !scene.fluid.present()) return {};
+  if (!core::is_law(core::law_of(scene, "gas_slip")) || !scene.fluid.present()) return {};
   try {
     const double density = fluid_constants(scene.fluid).density;
     return density > lightest_liquid ? core::Broken({fmt::format("{:.4g}", density)}) : core::Broken();

@@ -40,7 +40,7 @@ inline std::optional<EffectRow> weigh_liquid_bridge(const Weighing& by, EffectRo
 
 /// Broken if the fluid is a liquid; another rule covers a fluid without known properties.
 inline core::Broken bridges_in_a_liquid(const core::Scene& scene) {
-  if (!core::names_law(scene, "liquid_bridge") || !scene.fluid.present()) return {};
+  if (!core::is_law(core::law_of(scene, "liquid_bridge")) || !scene.fluid.present()) return {};
   try {
     const double density = fluid_constants(scene.fluid).density;
     return density > lightest_liquid ? core::Broken({fmt::format("{:.4g}", density)}) : core::Broken();

@@ -35,8 +35,8 @@ inline std::optional<EffectRow> weigh_partition(const Weighing& by, EffectRow ro
 
 /// Broken if the drag is not a law for one size.
 inline core::Broken shares_no_mean(const core::Scene& scene) {
-  const std::string drag = core::law_of(scene, "drag"), partition = core::law_of(scene, "partition");
-  if (!scene.effects.contains("partition") || partition == core::automatic) return {};
+  const std::string drag = scene.drag().name, partition = scene.partition().name;
+  if (!scene.partition().given || partition == core::automatic) return {};
   for (const closures::DragLawInfo& law : closures::drag_laws())
     if (law.name == drag && !law.is_mean) return core::Broken({partition, drag});
   return {};
@@ -52,7 +52,7 @@ inline const Effect partition{
         {needs_a_fluid("partition"),
          rule_of("partition", {"effects.drag"},
                  "effects.partition = \"{}\" shares a drag law of one size: give effects.drag, e.g. \"wen_yu\"",
-                 [](const core::Scene& scene) { return !scene.effects.contains("drag"); }),
+                 [](const core::Scene& scene) { return !scene.drag().given; }),
          {{"effects.partition", "effects.drag"},
           "effects.partition = \"{}\" cannot share drag = \"{}\", which is a law of mixtures itself: give a law of "
           "one size, e.g. \"wen_yu\" or \"vbk\"",

@@ -28,7 +28,7 @@ inline std::optional<EffectRow> weigh_shape(const Weighing& by, EffectRow row) {
   row.reason = "every species is a sphere";
   if (core::all_spheres(by.scene)) return row;
   core::Scene with = by.scene;
-  if (core::names_law(with, "shape")) row.model = core::law_of(with, "shape");
+  if (core::is_law(core::law_of(with, "shape"))) row.model = core::law_of(with, "shape");
   with.effects["shape"] = row.model;
   Supremum greatest;
   for (const Situation& s : by.survey.situations)
@@ -57,7 +57,7 @@ inline const Effect shape{
                       "below 1, or leave out effects.shape",
                       [](const core::Scene& scene) { return core::all_spheres(scene); }),
               rule_of("shape", {"effects.drag"}, "effects.shape = \"{}\" is a factor on the drag: give effects.drag",
-                      [](const core::Scene& scene) { return !core::acts(scene, "drag"); })},
+                      [](const core::Scene& scene) { return !scene.drag().acts(); })},
     .number = "max |drag at the sphericity/drag of spheres - 1|",
     .phrase = "the shape changes the drag by {} its value",
     .weigh = weigh_shape};

@@ -15,7 +15,7 @@ namespace polybed::tfm {
 namespace {
 
 bool is_left_open(const core::Scene& scene) {
-  return core::law_of(scene, "drag") == core::automatic || scene.bed.volume_share.size() != scene.species.size();
+  return scene.drag().name == core::automatic || scene.bed.volume_share.size() != scene.species.size();
 }
 
 /// Checks that a table of sheared particles is for the scene's regime: the other regime's stress differs by factors.
