@@ -14,7 +14,7 @@ import h5py
 import numpy as np
 
 import program
-from program import DONE, FILE, ROOT, STOPPED, WRONG_CASE, TWO_IN_WATER, Scratch, history, strict_json
+from program import DONE, FILE, ROOT, STOPPED, WRONG_CASE, Scratch, history, rising, strict_json
 
 sys.path.insert(0, str(ROOT / "python"))
 import polybed  # noqa: E402
@@ -22,30 +22,12 @@ from polybed import plot  # noqa: E402
 from polybed.drawing import comparison as page  # noqa: E402
 
 # 157 spheres of two sizes in rising water: both models take well below a second.
-BED = """[column]
-size = ["5 mm", "30 mm"]
-cells = [2, 12]
-sides = "periodic"
-""" + TWO_IN_WATER + """[bed]
-particles = [150, 7]
-solids_fraction = 0.6
-start = "mixed"
-start_solids_fraction = 0.4
-[inlet]
-superficial_velocity = "20 mm/s"
-[effects]
-others = "none"
-drag = "cello"
-solids_stress = "frictional"
-contact = "hertz_mindlin"
-[dem]
-youngs_modulus = "0.3 MPa"
-[run]
+BED = rising('size = ["5 mm", "30 mm"]\ncells = [2, 12]', [150, 7], 0.4, 'solids_stress = "frictional"\n', """[run]
 until = "20 ms"
 [output]
 every = "0.5 ms"
 history_every = "0.1 ms"
-"""
+""")
 QUIET = ["--quiet", "--no-picture"]
 MEASURES = {"bed_height_m", "pressure_drop_Pa", "pressure_drop_over_weight", "centre_fine_m", "centre_coarse_m",
             "centre_difference", "mixing", "interface_m"}

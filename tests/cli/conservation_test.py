@@ -4,29 +4,10 @@ state that a run goes on from: mass or particles are gone from its checkpoint. U
 import h5py
 
 import program
-from program import CASE, DONE, NUMBERS, SMALL, TWO_DRY, Scratch, history, strict_json
+from program import CASE, DONE, NUMBERS, SMALL, Scratch, falling, history, strict_json
 
 # 100 spheres fall; a step takes some 20 microseconds.
-FALL = """[column]
-size = ["8 mm", "30 mm"]
-cells = [4, 20]
-""" + TWO_DRY + """[bed]
-particles = [80, 20]
-solids_fraction = 0.6
-start = "mixed"
-start_solids_fraction = 0.3
-[effects]
-others = "none"
-contact = "hertz_mindlin"
-[dem]
-friction = 0.4
-[run]
-until = "20 ms"
-[output]
-every = "5 ms"
-history_every = "1 ms"
-checkpoint_every = "5 ms"
-"""
+FALL = falling('size = ["8 mm", "30 mm"]\ncells = [4, 20]', [80, 20], 0.3, "1 ms")
 
 # Spheres in a thin gas, whose pressure and so density falls by 1 % through them.
 GAS = """[column]

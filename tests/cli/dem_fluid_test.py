@@ -4,33 +4,16 @@ import h5py
 import numpy as np
 
 import program
-from program import DONE, ROOT, WRONG_CASE, TWO_IN_WATER, Scratch, history, same_bits, strict_json
+from program import DONE, ROOT, WRONG_CASE, Scratch, history, rising, same_bits, strict_json
 
 # 630 spheres of two sizes in rising water; a step takes about 100 microseconds.
-BED = """[column]
-size = ["10 mm", "60 mm"]
-cells = [3, 18]
-sides = "periodic"
-""" + TWO_IN_WATER + """[bed]
-particles = [600, 30]
-solids_fraction = 0.6
-start = "mixed"
-start_solids_fraction = 0.45
-[inlet]
-superficial_velocity = "20 mm/s"
-[effects]
-others = "none"
-drag = "cello"
-contact = "hertz_mindlin"
-[dem]
-youngs_modulus = "0.3 MPa"
-[run]
+BED = rising('size = ["10 mm", "60 mm"]\ncells = [3, 18]', [600, 30], 0.45, "", """[run]
 until = "60 ms"
 [output]
 every = "15 ms"
 history_every = "0.125 ms"
 checkpoint_every = "15 ms"
-"""
+""")
 # 200 spheres of 4 mm over a jet of air: a fall tells their speed, the jet that of the fluid. 42/0.42 m/s cross half a cell of 10 mm
 # in 50 microseconds.
 JET = """[column]

@@ -10,29 +10,10 @@ import h5py
 import numpy as np
 
 import program
-from program import DONE, FILE, NUMBERS, TWO_DRY, WRONG_CASE, Scratch, datasets, history, same_bits, strict_json
+from program import DONE, FILE, NUMBERS, WRONG_CASE, Scratch, datasets, falling, history, same_bits, strict_json
 
 # 300 spheres of two sizes that fall in a column with a periodic depth; a step takes about 50 microseconds.
-FALL = """[column]
-size = ["12 mm", "30 mm"]
-cells = [6, 30]
-""" + TWO_DRY + """[bed]
-particles = [250, 50]
-solids_fraction = 0.6
-start = "mixed"
-start_solids_fraction = 0.4
-[effects]
-others = "none"
-contact = "hertz_mindlin"
-[dem]
-friction = 0.4
-[run]
-until = "20 ms"
-[output]
-every = "5 ms"
-history_every = "0.5 ms"
-checkpoint_every = "5 ms"
-"""
+FALL = falling('size = ["12 mm", "30 mm"]\ncells = [6, 30]', [250, 50], 0.4, "0.5 ms")
 PAIR = """[column]
 size = ["20 mm", "20 mm", "20 mm"]
 cells = [4, 4, 4]

@@ -116,6 +116,50 @@ until = "{until}"
 """
 
 
+def falling(column, particles, solids, history):
+    """Dry spheres of two sizes, so many of each, that fall from a solids fraction. column: size and cells"""
+    return f"""[column]
+{column}
+""" + TWO_DRY + f"""[bed]
+particles = {particles}
+solids_fraction = 0.6
+start = "mixed"
+start_solids_fraction = {solids}
+[effects]
+others = "none"
+contact = "hertz_mindlin"
+[dem]
+friction = 0.4
+[run]
+until = "20 ms"
+[output]
+every = "5 ms"
+history_every = "{history}"
+checkpoint_every = "5 ms"
+"""
+
+
+def rising(column, particles, solids, effects, end):
+    """Spheres of two sizes in rising water. effects: more of them; end: tables [run] and [output]"""
+    return f"""[column]
+{column}
+sides = "periodic"
+""" + TWO_IN_WATER + f"""[bed]
+particles = {particles}
+solids_fraction = 0.6
+start = "mixed"
+start_solids_fraction = {solids}
+[inlet]
+superficial_velocity = "20 mm/s"
+[effects]
+others = "none"
+drag = "cello"
+{effects}contact = "hertz_mindlin"
+[dem]
+youngs_modulus = "0.3 MPa"
+{end}"""
+
+
 def environment(scratch):
     """One rank needs neither network nor daemon: without them MPI starts in a sixth of the time."""
     return {"POLYBED_TYPED": "polybed"} | os.environ | open_mpi.ONE_PROCESS | {"OMPI_MCA_orte_tmpdir_base": scratch}
