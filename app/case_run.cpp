@@ -32,7 +32,8 @@ CaseRun::CaseRun(const RunOptions& options, core::Scene scene, std::filesystem::
       directory_(std::move(directory)),
       ranks_(std::move(ranks)),
       model_name_(model),
-      first_(core::is_first(ranks_.get())) {
+      first_(core::is_first(ranks_.get())),
+      monitor_(Monitor::of(scene_, model)) {
   options_.quiet = options_.quiet || !first_;
   core::on_first(ranks_.get(), [&] {
     left_out_ = left_out(scene_, model);
@@ -64,7 +65,9 @@ void CaseRun::recall(const std::function<void(const core::Json&)>& take) const {
   if (past_.empty()) return;
   core::name_checkpoint(checkpoint_path(directory_), [&] {
     try {
-      take(core::parse_json(past_));
+      const core::Json past = core::parse_json(past_);
+      take(past);
+      if (monitor_ && past.contains("monitor")) monitor_->recall(past["monitor"], ranks_.get());
     } catch (const core::FileError& error) {
       core::refuse_checkpoint(fmt::format("what it says of the run before: {}", error.what()));
     }
@@ -203,19 +206,19 @@ std::string CaseRun::command_to_resume(const std::vector<std::string>& more) con
   return command;
 }
 
-std::string CaseRun::advice_of(const Monitor& monitor) const {
-  if (monitor.settings().empty())
+std::string CaseRun::advice_of_monitor() const {
+  if (monitor_->settings().empty())
     return "the effect cannot be added to a run that has begun: begin anew with it, or raise chooser.tolerance";
   std::vector<std::string> chosen;  // the added effect could change these
   for (const std::string& role : scene_.chooser.chosen)
     if (!find_entry(role)->effect->set_keys)
       chosen.push_back(fmt::format("effects.{}={}", role, core::law_of(scene_, role)));
-  chosen.insert(chosen.end(), monitor.settings().begin(), monitor.settings().end());
+  chosen.insert(chosen.end(), monitor_->settings().begin(), monitor_->settings().end());
   return "to go on with the effect: " + command_to_resume(chosen);
 }
 
-std::optional<Neglected> CaseRun::promise_of(const Monitor* monitor) {
-  if (monitor != nullptr) promise_ = monitor->result(ranks_.get());
+std::optional<Neglected> CaseRun::neglected() {
+  if (monitor_) promise_ = monitor_->result(ranks_.get());
   return promise_;
 }
 
@@ -233,7 +236,9 @@ void CaseRun::write_checkpoint() {
   const auto scope = timers_.scope("output");
   core::Checkpoint state = checkpoint();
   add_case(state, scene_);
-  state.texts[past_name] = core::json_text(past());
+  core::Json told = past();
+  if (monitor_) told["monitor"] = monitor_->past(ranks_.get());
+  state.texts[past_name] = core::json_text(told);
   flush_rows();  // a run continued from the checkpoint does not write them again
   core::write_checkpoint(checkpoint_path(directory_), std::move(state), ranks_.get(), checkpoint_rows());
   (void)record("running");

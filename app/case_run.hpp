@@ -49,7 +49,7 @@ class CaseRun {
   [[nodiscard]] virtual core::Checkpoint checkpoint() = 0;
   /// Makes the rows of history.csv survive a power cut. Collective.
   virtual void flush_rows() = 0;
-  /// Checkpoint data besides the state: values that a resumed run cannot measure again. Collective.
+  /// Checkpoint data besides the state and the monitor: values that a resumed run cannot measure again. Collective.
   [[nodiscard]] virtual core::Json past() = 0;
   /// Restores that, once the observers of a continued run exist. Throws FileError for data that no run can have.
   void recall(const std::function<void(const core::Json&)>& take) const;
@@ -88,21 +88,21 @@ class CaseRun {
   /// Prints it on standard error.
   void print_prediction(double actual);
 
-  /// Lets a monitor, if there is one, evaluate the state after a step; prints its messages on the first rank.
+  /// Lets the monitor, if there is one, evaluate the state after a step; prints its messages on the first rank.
   /// Collective.
   template <class Model>
-  void watch(Monitor* monitor, const Model& model) {
-    if (monitor == nullptr || !monitor->due()) return;
+  void watch(const Model& model) {
+    if (!monitor_ || !monitor_->due()) return;
     const auto scope = timers_.scope(monitor_term);
-    const std::size_t settings = monitor->settings().size();
-    say(monitor->look(model));
-    if (monitor->settings().size() > settings) say({advice_of(*monitor) + "  (end this run first: Ctrl-C)"});
+    const std::size_t settings = monitor_->settings().size();
+    say(monitor_->look(model));
+    if (monitor_->settings().size() > settings) say({advice_of_monitor() + "  (end this run first: Ctrl-C)"});
   }
-  /// How to continue after a monitor's warning.
-  [[nodiscard]] std::string advice_of(const Monitor& monitor) const;
-  /// A monitor's observations on all ranks, stored for print_promise(); empty without one. Collective.
-  [[nodiscard]] std::optional<Neglected> promise_of(const Monitor* monitor);
-  /// The neglected effects by the case, and a monitor's table of bounds against observations.
+  /// How to continue after the monitor's warning.
+  [[nodiscard]] std::string advice_of_monitor() const;
+  /// The monitor's observations on all ranks, stored for print_promise(); empty without one. Collective.
+  [[nodiscard]] std::optional<Neglected> neglected();
+  /// The neglected effects by the case, and the monitor's table of bounds against observations.
   void print_promise() const;
   /// Prints lines on standard error, on the first rank, unless the run is quiet.
   void say(const std::vector<std::string>& lines) const;
@@ -114,9 +114,10 @@ class CaseRun {
   core::Scene scene_;
   std::filesystem::path directory_;
   std::shared_ptr<const core::Ranks> ranks_;
-  std::string model_name_;  ///< "tfm" or "dem"
-  bool first_;              ///< this process reads, writes and prints
-  LeftOut left_out_;        ///< on the first rank
+  std::string model_name_;            ///< "tfm" or "dem"
+  bool first_;                        ///< this process reads, writes and prints
+  LeftOut left_out_;                  ///< on the first rank
+  std::unique_ptr<Monitor> monitor_;  ///< null: no monitor
   core::Timers timers_;
   double cpu_begin_ = core::cpu_seconds(), begin_ = 0;
 
@@ -170,6 +171,25 @@ struct RunStart {
 /// Calls `start`, which starts the run. If it throws, writes the reason to run.json of a new run, if possible, and
 /// rethrows. A wrong case leaves no record; neither does a start that fails before it has replaced an earlier run.
 void start_run(const RunStart& run, const std::function<void()>& start);
+
+/// Runs a case by a model in its run directory. \param require_room  throws for a case beyond the memory
+template <class Run>
+void run_case(const RunOptions& options, const core::Scene& scene, const std::string& model,
+              void (*require_room)(const core::Scene&)) {
+  const std::filesystem::path directory = run_directory(options, model);
+  const std::shared_ptr<const core::Ranks> ranks = core::Ranks::of_program();
+  std::unique_ptr<const core::OutputDirectory> taken;  // on the first rank
+  core::on_first(ranks.get(), [&] {
+    require_room(scene);
+    taken = take_directory(directory, options);
+  });
+  // Reject a checkpoint of another case before its model is built, which could fail for other reasons.
+  if (options.resume) core::on_first(ranks.get(), [&] { (void)read_checkpoint_of(directory, scene, model); });
+  std::optional<Run> run;
+  start_run({directory, scene, model, ranks.get(), options.resume},
+            [&] { run.emplace(options, scene, directory, ranks); });
+  run->run();
+}
 
 /// Prints the table of time by term.
 void print_timers(const core::Timers& timers);

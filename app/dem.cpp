@@ -75,14 +75,12 @@ class DemRun final : public CaseRun {
     const dem::Work work = work_of_run();
     core::Json past = {{"invariants", observers_->invariants().past()}, {"work", core::Json::object()}};
     for (const auto& [name, counter] : counters_) past["work"][name] = work.*counter;
-    if (monitor_) past["monitor"] = monitor_->past(ranks_.get());
     past["emptied"] = emptied_;
     return past;
   }
 
   void recall_from(const core::Json& past) {
     observers_->recall(core::member_of(past, "invariants"));
-    if (monitor_ && past.contains("monitor")) monitor_->recall(past["monitor"], ranks_.get());
     emptied_ = past.contains("emptied") && past["emptied"] == true;
     // The earlier process's counts include this one's so far. Unsigned differences wrap back correctly.
     const core::Json& before = core::member_of(past, "work");
@@ -118,7 +116,7 @@ class DemRun final : public CaseRun {
   /// Steps are short: checking all ranks at each step for a stop by the user would cost more than some steps.
   bool after_step() override {
     observers_->see_step();
-    watch(monitor_.get(), model_);
+    watch(model_);
     return model_.steps() % 64 != 0 || CaseRun::after_step();
   }
 
@@ -151,7 +149,7 @@ class DemRun final : public CaseRun {
   std::vector<core::BlockData> checkpoint_rows() override { return model_.rows(); }
 
   std::string advice() override {
-    if (monitor_ && monitor_->has_stopped()) return advice_of(*monitor_);
+    if (monitor_ && monitor_->has_stopped()) return advice_of_monitor();
     return fmt::format("the step was {:.3g} s, limited by {}", model_.limits().dt, model_.limits().limited_by);
   }
 
@@ -178,7 +176,7 @@ class DemRun final : public CaseRun {
     cpu_ = cpu[0];
     work_ = work_of_run();
     find_fluid();
-    const std::optional<Neglected> promise = promise_of(monitor_.get());
+    const std::optional<Neglected> promise = neglected();
     const int ranks = ranks_ ? ranks_->count() : 1;
     core::Json json;
     begin_record(json, scene_, "dem", state, ranks);
@@ -299,7 +297,6 @@ class DemRun final : public CaseRun {
   }
 
   dem::Model model_;
-  std::unique_ptr<Monitor> monitor_ = Monitor::of(scene_, "dem");  ///< null: no monitor
   std::optional<dem::Observers> observers_;
   dem::Work work_, before_;           ///< in the last record; by earlier processes
   std::optional<FluidReport> fluid_;  ///< in the last record; absent without a fluid
@@ -311,20 +308,8 @@ class DemRun final : public CaseRun {
 
 void run_dem(const RunOptions& options) {
   const core::Scene scene = read_scene(options, {&rules_of_dem()});
-  const fs::path directory = run_directory(options, "dem");
-  const std::shared_ptr<const core::Ranks> ranks = core::Ranks::of_program();
   core::give_back_what_is_freed();
-  std::unique_ptr<const core::OutputDirectory> taken;  // on the first rank
-  core::on_first(ranks.get(), [&] {
-    require_particle_memory(scene);
-    taken = take_directory(directory, options);
-  });
-  // Reject a checkpoint of another case before its model is built, which could fail for other reasons.
-  if (options.resume) core::on_first(ranks.get(), [&] { (void)read_checkpoint_of(directory, scene, "dem"); });
-  std::optional<DemRun> run;
-  start_run({directory, scene, "dem", ranks.get(), options.resume},
-            [&] { run.emplace(options, scene, directory, ranks); });
-  run->run();
+  run_case<DemRun>(options, scene, "dem", require_particle_memory);
 }
 
 }  // namespace

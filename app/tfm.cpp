@@ -73,14 +73,11 @@ class TfmRun final : public CaseRun {
     for (const tfm::ClosureUse& use : closures_of(model_, closures_before_))
       closures.push_back({use.name, use.evaluations, use.guarded});
     for (const auto& [name, steps] : limits_) limits[name] = steps;
-    core::Json past = {{"observers", observers_->past()}, {"closures", closures}, {"limits", limits}};
-    if (monitor_) past["monitor"] = monitor_->past(ranks_.get());
-    return past;
+    return {{"observers", observers_->past()}, {"closures", closures}, {"limits", limits}};
   }
 
   void recall_from(const core::Json& past) {
     observers_->recall(core::member_of(past, "observers"));
-    if (monitor_ && past.contains("monitor")) monitor_->recall(past["monitor"], ranks_.get());
     const core::Json& limits = core::member_of(past, "limits");
     for (const auto& [name, steps] : limits.items()) limits_[name] = core::count_of(steps);
     // The earlier process's counts include this one's so far. Unsigned differences wrap back correctly.
@@ -115,7 +112,7 @@ class TfmRun final : public CaseRun {
   bool after_step() override {
     observers_->log_step();
     ++limits_[limit()];
-    watch(monitor_.get(), model_);
+    watch(model_);
     return CaseRun::after_step();
   }
 
@@ -151,7 +148,7 @@ class TfmRun final : public CaseRun {
       steps += fmt::format("{:14.6g} {:12.3g}  {}\n", step.time, step.step, step.limited_by);
     return fmt::format(
         "the last steps: time, s; length, s; what limited it; steps.csv has all of them\n{}{}", steps,
-        monitor_ && monitor_->has_stopped() ? advice_of(*monitor_)
+        monitor_ && monitor_->has_stopped() ? advice_of_monitor()
         : scene_.tfm.fixed_step
             ? "tfm.fixed_step leaves no step to shrink: state a shorter one, or none"
             : fmt::format("try a {} tfm.rtol, the other tfm.integrator, or a looser start (bed.start_solids_fraction)",
@@ -160,7 +157,7 @@ class TfmRun final : public CaseRun {
 
   std::string record_text(const std::string& state) override {
     totals_ = totals_of(model_, core::cpu_seconds() - cpu_begin_, wall_seconds(), closures_before_);
-    const std::optional<Neglected> promise = promise_of(monitor_.get());
+    const std::optional<Neglected> promise = neglected();
     evenness_ = tfm::warning_of_an_even_bed(model_.constants().grid, model_.fields());
     std::vector<std::string> warnings = evenness_.empty() ? even_said_ : evenness_;
     if (std::string line = called_for_line(left_out_); !line.empty()) warnings.push_back(std::move(line));
@@ -235,9 +232,8 @@ class TfmRun final : public CaseRun {
   tfm::Model model_;
   std::optional<tfm::EvennessWatch> even_ =
       tfm::EvennessWatch::of(model_.constants().grid, fluid::Ramp(scene_.inlet.superficial_velocity).greatest());
-  std::vector<std::string> evenness_;                              ///< warning in the last record
-  std::vector<std::string> even_said_;                             ///< during the run, with its time
-  std::unique_ptr<Monitor> monitor_ = Monitor::of(scene_, "tfm");  ///< null: no monitor
+  std::vector<std::string> evenness_;   ///< warning in the last record
+  std::vector<std::string> even_said_;  ///< during the run, with its time
   std::vector<double> initial_mass_;
   std::optional<tfm::Observers> observers_;
   std::map<std::string, std::uint64_t> limits_;   ///< number of steps by their limit
@@ -251,17 +247,7 @@ void run_tfm(const RunOptions& options) {
   if (options.closure_uncertainty) run_closure_uncertainty(options, "tfm", {&rules_of_tfm()});
   if (options.stress_uncertainty) run_stress_uncertainty(options);
   const core::Scene scene = read_scene(options, {&rules_of_tfm()});
-  const fs::path directory = run_directory(options, "tfm");
-  const std::shared_ptr<const core::Ranks> ranks = core::Ranks::of_program();
-  std::unique_ptr<const core::OutputDirectory> taken;  // on the first rank
-  core::on_first(ranks.get(), [&] {
-    require_memory(scene);
-    taken = take_directory(directory, options);
-  });
-  std::optional<TfmRun> run;
-  start_run({directory, scene, "tfm", ranks.get(), options.resume},
-            [&] { run.emplace(options, scene, directory, ranks); });
-  run->run();
+  run_case<TfmRun>(options, scene, "tfm", require_memory);
 }
 
 }  // namespace

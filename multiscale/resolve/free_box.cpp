@@ -249,21 +249,9 @@ void FreeBox<Real>::restore(const core::Checkpoint& state) {
 template class FreeBox<float>;
 template class FreeBox<double>;
 
-namespace {
-
-template <class Real>
-BoxDrag run(const core::Scene& scene, const ResolvePoint& point, const SpherePacking& packing,
-            const StillWanted& wanted, const KeptBox* kept) {
-  FreeBox<Real> box(scene, point, packing);
-  return run_timed(box, scene, wanted, kept);
-}
-
-}  // namespace
-
 BoxDrag free_box(const core::Scene& scene, const ResolvePoint& point, const SpherePacking& packing,
                  const StillWanted& wanted, const KeptBox* kept) {
-  return scene.resolve.precision == core::Precision::one ? run<float>(scene, point, packing, wanted, kept)
-                                                         : run<double>(scene, point, packing, wanted, kept);
+  return run_box<FreeBox>(scene, point, packing, wanted, kept);
 }
 
 }  // namespace polybed::multiscale

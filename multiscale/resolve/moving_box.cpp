@@ -146,21 +146,9 @@ void MovingBox<Real>::restore(const core::Checkpoint& state) {
 template class MovingBox<float>;
 template class MovingBox<double>;
 
-namespace {
-
-template <class Real>
-BoxDrag run_moving(const core::Scene& scene, const ResolvePoint& point, const SpherePacking& packing,
-                   const StillWanted& wanted, const KeptBox* kept) {
-  MovingBox<Real> box(scene, point, packing);
-  return run_timed(box, scene, wanted, kept);
-}
-
-}  // namespace
-
 BoxDrag moving_box(const core::Scene& scene, const ResolvePoint& point, const SpherePacking& packing,
                    const StillWanted& wanted, const KeptBox* kept) {
-  return scene.resolve.precision == core::Precision::one ? run_moving<float>(scene, point, packing, wanted, kept)
-                                                         : run_moving<double>(scene, point, packing, wanted, kept);
+  return run_box<MovingBox>(scene, point, packing, wanted, kept);
 }
 
 }  // namespace polybed::multiscale

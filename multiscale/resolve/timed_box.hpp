@@ -60,4 +60,15 @@ BoxDrag run_timed(Box& box, const core::Scene& scene, const StillWanted& wanted,
   return drag;
 }
 
+/// The same for a new box, at the precision of the case.
+template <template <class> class Box>
+BoxDrag run_box(const core::Scene& scene, const ResolvePoint& point, const SpherePacking& packing,
+                const StillWanted& wanted, const KeptBox* kept) {
+  const auto run = [&]<class Real>(Real) {
+    Box<Real> box(scene, point, packing);
+    return run_timed(box, scene, wanted, kept);
+  };
+  return scene.resolve.precision == core::Precision::one ? run(float()) : run(double());
+}
+
 }  // namespace polybed::multiscale
