@@ -94,22 +94,14 @@ std::vector<Rule> beside_the_start() {
           idle_at_start("particles", false, [](const Scene& s) { return !s.bed.particles.empty(); })};
 }
 
-/// Two values, from the least to the greatest.
-Rule is_a_range(const std::string& key, std::vector<double> Chooser::*range) {
-  return {
-      {"chooser." + key}, "chooser." + key + ": two values, the least and the greatest", [range](const Scene& scene) {
-        const std::vector<double>& values = scene.chooser.*range;
-        return broken_if(!values.empty() && (values.size() != 2 || values[0] > values[1]));
-      }};
-}
-
-/// One value, or two from the least to the greatest.
-Rule is_a_bracket(const std::string& key, std::vector<double> Inversion::*bracket) {
-  return {{"inversion." + key},
-          "inversion." + key + ": one value, or two, the least and the greatest",
-          [bracket](const Scene& scene) {
-            const std::vector<double>& values = scene.inversion.*bracket;
-            return broken_if(values.size() > 2 || (values.size() == 2 && values[0] > values[1]));
+/// Two values from the least to the greatest, or none; of the inversion also one.
+template <class Table>
+Rule is_rising(const std::string& key, Table Scene::*table, std::vector<double> Table::*list) {
+  constexpr bool one = std::is_same_v<Table, Inversion>;
+  const std::string number = one ? ": one value, or two" : ": two values";
+  return {{key}, key + number + ", the least and the greatest", [=](const Scene& scene) {
+            const std::vector<double>& v = scene.*table.*list;
+            return broken_if(v.size() > 2 || (v.size() == 2 && v[0] > v[1]) || (v.size() == 1 && !one));
           }};
 }
 
@@ -166,10 +158,10 @@ std::vector<Rule> of_the_fluid() {
       {{"dem.held", "fluid.name"},
        "dem.held = true is a fixed bed for a fluid to flow through: fluid.name is \"none\"",
        [](const Scene& scene) { return broken_if(scene.bed.held && !scene.fluid.present()); }},
-      is_a_range("velocity_range", &Chooser::velocity_range),
-      is_a_range("temperature_range", &Chooser::temperature_range),
-      is_a_bracket("measured", &Inversion::measured),
-      is_a_bracket("simulated", &Inversion::simulated)};
+      is_rising("chooser.velocity_range", &Scene::chooser, &Chooser::velocity_range),
+      is_rising("chooser.temperature_range", &Scene::chooser, &Chooser::temperature_range),
+      is_rising("inversion.measured", &Scene::inversion, &Inversion::measured),
+      is_rising("inversion.simulated", &Scene::inversion, &Inversion::simulated)};
 }
 
 }  // namespace
