@@ -1,11 +1,11 @@
-#include "tfm/integrator_choice.hpp"
-
+// The integrator for a scene.
 #include <fmt/format.h>
 
 #include "core/error.hpp"
 #include "relevance/fluid_properties.hpp"
 #include "tfm/rules.hpp"
 #include "tfm/step_estimate.hpp"
+#include "tfm/stepping.hpp"
 
 namespace polybed::tfm {
 

@@ -14,7 +14,6 @@
 #include "core/timers.hpp"
 #include "fluid/exits.hpp"
 #include "fluid/fluid_mass.hpp"
-#include "tfm/integrator_choice.hpp"
 #include "tfm/right_hand_side.hpp"
 #include "tfm/step_part.hpp"
 #include "tfm/stepping.hpp"
