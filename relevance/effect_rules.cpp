@@ -1,5 +1,10 @@
 #include "relevance/effect_rules.hpp"
+
+#include <fmt/format.h>
+
 #include "core/case/scene.hpp"
+#include "core/error.hpp"
+#include "relevance/fluid_properties.hpp"
 
 namespace polybed::relevance {
 
@@ -37,6 +42,19 @@ Rule rule_of_law(const std::string& role, const std::string& law, const std::vec
 Rule needs_a_fluid(const std::string& role) {
   return rule_of(role, {"fluid.name"}, key_of(role) + " = \"{}\" cannot act: fluid.name = \"none\"",
                  [](const Scene& scene) { return !scene.fluid.present(); });
+}
+
+Rule refuses_a_liquid(const std::string& role, const std::string& why) {
+  return {keys_of(role, {"fluid."}), key_of(role) + ": a fluid of {} kg/m3 is a liquid, " + why + ": leave it out",
+          [role](const Scene& scene) -> Broken {
+            if (!core::is_law(core::law_of(scene, role)) || !scene.fluid.present()) return {};
+            try {
+              const double density = fluid_constants(scene.fluid).density;
+              return density > lightest_liquid ? Broken({fmt::format("{:.4g}", density)}) : Broken();
+            } catch (const core::CaseError&) {
+              return {};
+            }
+          }};
 }
 
 Rule idle_in_a_sheared_box(const std::string& role) {

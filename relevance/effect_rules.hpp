@@ -24,6 +24,9 @@ namespace polybed::relevance {
 /// For effects of a fluid.
 [[nodiscard]] core::Rule needs_a_fluid(const std::string& role);
 
+/// For effects in a gas. A fluid without known properties is covered by another rule. \param why  no liquid has it
+[[nodiscard]] core::Rule refuses_a_liquid(const std::string& role, const std::string& why);
+
 /// For effects excluded by a sheared box, whose fluid moves with its flow.
 [[nodiscard]] core::Rule idle_in_a_sheared_box(const std::string& role);
 

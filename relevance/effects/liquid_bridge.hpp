@@ -1,16 +1,12 @@
 // Liquid bridges between wet particles in a gas.
 #pragma once
 
-#include <fmt/format.h>
-
 #include <numbers>
 
 #include "closures/relevance.hpp"
 #include "core/case/scene.hpp"
-#include "core/error.hpp"
 #include "relevance/effect.hpp"
 #include "relevance/effect_rules.hpp"
-#include "relevance/fluid_properties.hpp"
 #include "relevance/supremum.hpp"
 
 namespace polybed::relevance::effects {
@@ -38,17 +34,6 @@ inline std::optional<EffectRow> weigh_liquid_bridge(const Weighing& by, EffectRo
   return row;
 }
 
-/// Broken if the fluid is a liquid; another rule covers a fluid without known properties.
-inline core::Broken bridges_in_a_liquid(const core::Scene& scene) {
-  if (!core::is_law(core::law_of(scene, "liquid_bridge")) || !scene.fluid.present()) return {};
-  try {
-    const double density = fluid_constants(scene.fluid).density;
-    return density > lightest_liquid ? core::Broken({fmt::format("{:.4g}", density)}) : core::Broken();
-  } catch (const core::CaseError&) {
-    return {};
-  }
-}
-
 inline const Effect liquid_bridge{
     .role = "liquid_bridge",
     .help = "pull of liquid between wet particles in a gas",
@@ -56,17 +41,13 @@ inline const Effect liquid_bridge{
     .laws = {{"willett",
               "pendular bridges that form at contact and rupture apart: dem.surface_tension, dem.liquid_fraction",
               "2 pi R gamma cos(theta)/(1 + 1.05 s + 2.5 s^2), s = gap sqrt(R/V); Willett et al. 2000"}},
-    .rules =
-        {{{"effects.liquid_bridge", "fluid."},
-          "effects.liquid_bridge: a fluid of {} kg/m3 is a liquid, in which particles have no liquid bridges: leave "
-          "it out",
-          bridges_in_a_liquid},
-         rule_of("liquid_bridge", {"dem.surface_tension"},
-                 "dem.surface_tension: effects.liquid_bridge = \"{}\" needs it, as in \"72 mN/m\"",
-                 [](const core::Scene& scene) { return !scene.material.surface_tension; }),
-         rule_of("liquid_bridge", {"dem.liquid_fraction"},
-                 "dem.liquid_fraction: effects.liquid_bridge = \"{}\" needs it, above 0, as in 0.01",
-                 [](const core::Scene& scene) { return !(scene.material.liquid_fraction > 0); })},
+    .rules = {refuses_a_liquid("liquid_bridge", "in which particles have no liquid bridges"),
+              rule_of("liquid_bridge", {"dem.surface_tension"},
+                      "dem.surface_tension: effects.liquid_bridge = \"{}\" needs it, as in \"72 mN/m\"",
+                      [](const core::Scene& scene) { return !scene.material.surface_tension; }),
+              rule_of("liquid_bridge", {"dem.liquid_fraction"},
+                      "dem.liquid_fraction: effects.liquid_bridge = \"{}\" needs it, above 0, as in 0.01",
+                      [](const core::Scene& scene) { return !(scene.material.liquid_fraction > 0); })},
     .number = "pull of a bridge over weight (Bond number)",
     .phrase = "pull of liquid between particles: {} the weight",
     .weigh = weigh_liquid_bridge};
