@@ -16,7 +16,6 @@ import h5py
 import numpy as np
 
 sys.path.append(str(pathlib.Path(__file__).resolve().parents[1]))
-import open_mpi  # noqa: E402
 import program  # noqa: E402
 from program import DONE, NUMBERS, TWO_IN_WATER, WRONG_CASE, Scratch, history
 
@@ -224,9 +223,7 @@ class Calibration(Scratch):
 
     def on_two_ranks(self, *words, loud=False):
         words = words if loud else ("--quiet", *words)
-        return subprocess.run(["mpirun", "-q", "-n", "2", program.PROGRAM, "calibrate", self.folder / "case.toml", "-o",
-                               self.folder / "ranks", *words], capture_output=True, encoding="utf-8", timeout=300,
-                              env=os.environ | open_mpi.SETTINGS | open_mpi.MORE_THAN_CORES)
+        return program.run_on_ranks(2, "calibrate", self.folder / "case.toml", "-o", self.folder / "ranks", *words)
 
     def test_ranks_run_boxes_with_the_same_bits(self):
         self.assertEqual(self.calibrate(DRY).returncode, DONE)

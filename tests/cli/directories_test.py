@@ -194,8 +194,7 @@ class Lock(Scratch):
     def test_ranks_end_together(self):
         directory = self.folder / "run"
         first = self.running(directory)
-        done = subprocess.run(["mpirun", "-q", "-n", "2", program.PROGRAM, *map(str, RUN), "--no-picture", "-o", str(directory)],
-                              env=os.environ | program.open_mpi.SETTINGS, capture_output=True, text=True, timeout=program.LONGEST)
+        done = program.run_on_ranks(2, *RUN, "-o", directory)
         self.kill(first)
         self.assertEqual(done.returncode, FILE, done.stderr)
         self.assertEqual(done.stderr.count(f"process {first.pid} "), 1, done.stderr)

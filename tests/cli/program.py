@@ -194,6 +194,14 @@ def run_all(commands, **options):
         return list(pool.map(lambda words: run(*words, **options), commands))
 
 
+def run_on_ranks(ranks, *words):
+    """The finished command on ranks of mpirun, of which those that wait let the others compute."""
+    settings = os.environ | open_mpi.SETTINGS | open_mpi.MORE_THAN_CORES
+    with tempfile.TemporaryDirectory() as scratch:
+        return subprocess.run(["mpirun", "-q", "-n", str(ranks), *command(words)], env=settings | {"OMPI_MCA_orte_tmpdir_base": scratch},
+                              capture_output=True, encoding="utf-8", timeout=300)
+
+
 def wait_until(process, condition):
     """Waits for a state of a running program; fails if the program ends first."""
     for _ in range(LONGEST * 500):
@@ -287,6 +295,11 @@ class Scratch(unittest.TestCase):
     def ends(self, code, *words, **options):
         done = run(*words, **options)
         self.assertEqual(done.returncode, code, f"{words}\n{(done.stdout or '')[-500:]}\n{done.stderr[-500:]}")
+        return done
+
+    def on_ranks(self, ranks, *words, code=DONE):
+        done = run_on_ranks(ranks, *words)
+        self.assertEqual(done.returncode, code, f"{ranks} ranks: {words}\n{done.stdout[-500:]}\n{done.stderr[-1500:]}")
         return done
 
     def interrupted(self, directory, *words, clock):

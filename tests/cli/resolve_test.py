@@ -1,17 +1,13 @@
 #!/usr/bin/python3
 """polybed resolve: rows, resume, refusals, and one and two ranks. Usage: resolve_test.py PROGRAM"""
 import csv
-import os
 import re
 import shutil
 import signal
-import subprocess
 
 import h5py
 
-import program
 from program import DONE, FILE, LONGEST, STOPPED, TWO_SIZES, WRONG_CASE, Scratch, main, strict_json, wait_until
-import open_mpi
 
 CASE = """[column]
 size = ["10 mm", "40 mm"]
@@ -123,11 +119,7 @@ class Resolve(Scratch):
 
     def on_ranks(self, ranks, *words):
         """The rows of a run on ranks."""
-        settings = os.environ | open_mpi.SETTINGS | open_mpi.MORE_THAN_CORES
-        done = subprocess.run(["mpirun", "-q", "-n", str(ranks), program.PROGRAM, "resolve", self.case, "--quiet", *words],
-                              env=settings, capture_output=True, text=True)
-        self.assertEqual(done.returncode, DONE, done.stderr[-1500:])
-        return done.stdout
+        return super().on_ranks(ranks, "resolve", self.case, "--quiet", *words).stdout
 
     def test_ranks_share_the_boxes_and_find_the_same(self):
         words = ["--set", "resolve.reynolds=[0]"]

@@ -1,9 +1,7 @@
 #!/usr/bin/python3
 """Particles in a fluid on several ranks: what a run stores of both. Usage: dem_fluid_ranks_test.py PROGRAM"""
 import json
-import os
 import pathlib
-import subprocess
 import sys
 
 import numpy as np
@@ -11,7 +9,6 @@ import numpy as np
 TESTS = pathlib.Path(__file__).resolve().parents[1]
 sys.path[:0] = [str(TESTS), str(TESTS / "cli")]
 import open_mpi  # noqa: E402
-import program  # noqa: E402
 from program import TWO_SIZES, Scratch, datasets, main, same_bits  # noqa: E402
 
 # 630 spheres of two sizes in rising water, on few cells.
@@ -53,10 +50,7 @@ FILES = ("fields.h5", "particles.h5", "profiles.h5", "checkpoint.h5")
 
 class FluidOnRanks(Scratch):
     def on(self, ranks, *words):
-        settings = os.environ | open_mpi.SETTINGS | open_mpi.MORE_THAN_CORES
-        done = subprocess.run(["mpirun", "-q", "-n", str(ranks), program.PROGRAM, "dem", self.folder / "case.toml", "--quiet",
-                               "--no-picture", *map(str, words)], env=settings, capture_output=True, text=True, timeout=300)
-        self.assertEqual(done.returncode, 0, done.stderr[-1500:])
+        self.on_ranks(ranks, "dem", self.folder / "case.toml", "--quiet", *words)
 
     def setUp(self):
         super().setUp()

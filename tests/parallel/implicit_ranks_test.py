@@ -2,11 +2,8 @@
 """The implicit integrator on 1 to 4 ranks: the same steps, the same bits. Closed and open, packed and loose, gas and liquid, one and
 two species, a feed, two and three dimensions; and within the tolerance where layers are wide."""
 import json
-import os
 import pathlib
-import subprocess
 import sys
-import tempfile
 
 import h5py
 import numpy as np
@@ -14,7 +11,6 @@ import numpy as np
 TESTS = pathlib.Path(__file__).resolve().parents[1]
 sys.path[:0] = [str(TESTS), str(TESTS / "cli")]
 import open_mpi  # noqa: E402
-import program  # noqa: E402
 from program import Scratch, main  # noqa: E402
 
 # A layer of more than 64 cells is relaxed by multigrid, in another order across a cut, so that Newton's iterations end elsewhere within
@@ -70,12 +66,7 @@ class ImplicitRanks(Scratch):
         """The record of a run, and its last fractions and velocities."""
         case = self.write(f"{name}.toml", SCENES[name])
         out = self.folder / f"{name} on {ranks}"
-        settings = os.environ | open_mpi.SETTINGS | open_mpi.MORE_THAN_CORES
-        with tempfile.TemporaryDirectory() as scratch:
-            settings["OMPI_MCA_orte_tmpdir_base"] = scratch
-            done = subprocess.run(["mpirun", "-q", "-n", str(ranks), program.PROGRAM, "tfm", case, "--quiet", "--no-picture",
-                                   "--force", "-o", out, *words], env=settings, capture_output=True, encoding="utf-8", timeout=120)
-        self.assertEqual(done.returncode, 0, f"{name} on {ranks} ranks: {done.stderr[-1500:]}")
+        self.on_ranks(ranks, "tfm", case, "--quiet", "--force", "-o", out, *words)
         with h5py.File(out / "fields.h5") as file:
             last = file["step"][sorted(file["step"])[-1]]
             fields = {field: last[field][...] for field in last if field.startswith("phi_")}

@@ -1,19 +1,14 @@
 #!/usr/bin/python3
 """One case on 1, 2, 3 and 4 ranks: the same fields, the same restart, one voice."""
 import json
-import os
 import pathlib
-import subprocess
 import sys
-import tempfile
-import unittest
 
 import numpy as np
 
 TESTS = pathlib.Path(__file__).resolve().parents[1]
 sys.path[:0] = [str(TESTS), str(TESTS / "cli")]
 import open_mpi  # noqa: E402
-import program  # noqa: E402
 from program import CASE, Scratch, datasets, history, main  # noqa: E402
 
 # Where rows are short every rank solves for the whole column, and sums over cells have no order: all fields have the same bits.
@@ -41,13 +36,7 @@ RANKS = (2,) if open_mpi.SHORT else (2, 3, 4)
 class Ranks(Scratch):
     def on(self, ranks, *words, code=0):
         """`polybed tfm` on a number of ranks; its standard error and output."""
-        settings = os.environ | open_mpi.SETTINGS | open_mpi.MORE_THAN_CORES
-        with tempfile.TemporaryDirectory() as scratch:
-            settings["OMPI_MCA_orte_tmpdir_base"] = scratch
-            done = subprocess.run(["mpirun", "-q", "-n", str(ranks), program.PROGRAM, "tfm", *map(str, words),
-                                   "--no-picture"], env=settings, capture_output=True, encoding="utf-8", timeout=120)
-        self.assertEqual(done.returncode, code, f"{ranks} ranks: {words}\n{done.stdout[-500:]}\n{done.stderr[-1500:]}")
-        return done
+        return self.on_ranks(ranks, "tfm", *words, code=code)
 
     def largest_difference(self, one, other):
         """Between the last fields of two runs, relative to the greatest value of each field; p has the scale of the
