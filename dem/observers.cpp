@@ -70,7 +70,7 @@ measures::Slabs slabs_of(const Model& model, const core::Column& column) {
   for (std::size_t k = 0; k < slabs.count && column.is_tapered(); ++k)
     slabs.areas.push_back(column.area_between(double(k) * thickness, double(k + 1) * thickness));
   if (slabs.areas.empty() && model.coupling() != nullptr)
-    slabs.areas = core::areas_of_layers(model.coupling()->flow().grid());
+    slabs.areas = measures::areas_of_slabs(model.coupling()->flow().grid());
   return slabs;
 }
 

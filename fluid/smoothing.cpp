@@ -192,7 +192,7 @@ Smoothing::Sweeps Smoothing::open_sweeps(const core::Grid& grid, int of, const c
   const bool tapered = grid.metric->tapered();
   add(0, steps / 2);
   if (tapered) add(1, steps / 2);
-  if (grid.layers) add(1, steps);
+  if (grid.layers && !tapered) add(1, steps);
   for (Sweep& upright : sweeps(grid, box, time))
     if (upright.axis == 1 && !tapered && !grid.layers) result.push_back(std::move(upright));
   add(2, steps);

@@ -68,6 +68,11 @@ std::vector<double> linear_on_slabs(const core::Grid& grid, const std::vector<do
 
 }  // namespace
 
+std::vector<double> areas_of_slabs(const core::Grid& grid) {
+  std::vector<double> areas = core::areas_of_layers(grid);
+  return grid.layers && !areas.empty() ? even_on_slabs(grid, areas) : areas;
+}
+
 std::vector<double> part_of_lateral_mean(const core::Grid& grid, std::span<const double> field, Within layers) {
   std::vector<double> mean(std::size_t(grid.column_cells(1)), 0.0);
   const double* open = grid.metric ? grid.metric->volume.data() : nullptr;
@@ -79,8 +84,14 @@ std::vector<double> part_of_lateral_mean(const core::Grid& grid, std::span<const
     });
     mean[std::size_t(grid.before[1] + y)] = sum / core::open_cells_of_layer(grid, grid.before[1] + y);
   }
-  if (grid.layers) return layers == Within::even ? even_on_slabs(grid, mean) : linear_on_slabs(grid, mean);
-  return mean;
+  if (!grid.layers) return mean;
+  if (layers == Within::linear) return linear_on_slabs(grid, mean);
+  const std::vector<double> area = core::areas_of_layers(grid);
+  for (std::size_t y = 0; y < area.size(); ++y) mean[y] *= area[y];
+  std::vector<double> slabs = even_on_slabs(grid, mean);
+  const std::vector<double> areas = areas_of_slabs(grid);
+  for (std::size_t k = 0; k < areas.size(); ++k) slabs[k] /= areas[k];
+  return slabs;
 }
 
 std::vector<double> lateral_mean(const core::Grid& grid, std::span<const double> field, Within layers) {

@@ -33,6 +33,9 @@ struct Profile {
 /// Number of slabs of a profile: of layers of cells; graded ones are laid on slabs as thick as the lowest layer.
 [[nodiscard]] std::size_t slabs_of(const core::Grid& grid);
 
+/// Open areas of the slabs where the cross-section changes, m2; else empty.
+[[nodiscard]] std::vector<double> areas_of_slabs(const core::Grid& grid);
+
 /// Values of graded layers on slabs.
 enum class Within { even, linear };  ///< even in each layer, so that volumes are kept; linear between the centres
 

@@ -31,7 +31,7 @@ bool knows_temperature(const Model& model) { return !model.fields().solids.tempe
 
 std::vector<std::string> profile_names(const Constants& constants, bool temperature) {
   std::vector<std::string> names{"voidage", "p"};
-  if (!core::areas_of_layers(constants.grid).empty()) names.emplace_back(core::area_of_slabs);
+  if (!measures::areas_of_slabs(constants.grid).empty()) names.emplace_back(core::area_of_slabs);
   for (const std::string& name : constants.name) {
     names.push_back("phi_" + name);
     names.push_back("u_" + name);
@@ -98,7 +98,7 @@ measures::Profile part_of_profile(const Model& model) {
   const core::Grid& grid = model.constants().grid;
   measures::Profile profile;
   profile.slab = grid.spacing[1];
-  profile.areas = core::areas_of_layers(grid);
+  profile.areas = measures::areas_of_slabs(grid);
   for (const core::Field& phi : model.fields().solids.fraction)
     profile.fraction.push_back(measures::part_of_lateral_mean(grid, phi));
   profile.pressure = measures::part_of_lateral_mean(grid, model.fields().fluid.pressure, measures::Within::linear);
@@ -246,7 +246,7 @@ void Observers::write_fields(double time) {
   };
   add_mean(fields.fluid.voidage);
   add_mean(fields.fluid.pressure, measures::Within::linear);
-  if (const std::vector<double> areas = core::areas_of_layers(grid); !areas.empty()) rows.push_back(areas);
+  if (const std::vector<double> areas = measures::areas_of_slabs(grid); !areas.empty()) rows.push_back(areas);
   std::vector<core::FaceField> velocities{core::cell_means(grid, fields.fluid.velocity)};
   for (const core::FaceField& u : fields.solids.velocity) velocities.push_back(core::cell_means(grid, u));
   std::vector<core::Field> temperatures;

@@ -165,7 +165,8 @@ std::vector<double> areas_of_layers(const Grid& grid) {
   std::vector<double> areas;
   if (grid.metric && grid.metric->tapered())
     for (int y = 0; y < grid.column_cells(1); ++y)
-      areas.push_back(open_cells_of_layer(grid, y) * grid.spacing[0] * grid.spacing[2]);
+      areas.push_back(open_cells_of_layer(grid, y) / (grid.height(y) / grid.spacing[1]) * grid.spacing[0] *
+                      grid.spacing[2]);
   return areas;
 }
 

@@ -1,11 +1,13 @@
-// The fluid's viscous stress and convection far from a wall inside: as without the wall.
+// Viscous stress, convection and smoothing far from a wall inside or a port: as without.
 #include <gtest/gtest.h>
 
 #include <cmath>
 
+#include "core/case/grading.hpp"
 #include "core/numerics/blocks.hpp"
 #include "core/numerics/random.hpp"
 #include "fluid/convection.hpp"
+#include "fluid/smoothing.hpp"
 #include "fluid/viscous_stress.hpp"
 
 namespace polybed::fluid {
@@ -67,6 +69,29 @@ TEST(AWallInside, ChangesNothingFarAway) {
     }
     EXPECT_GT(steps, 0);
   }
+}
+
+/// A layer of solids at half height, smoothed in graded layers: what the axis of the tube has of it, layer by layer.
+std::vector<double> spread_layer(const core::Ducts& ducts) {
+  core::Column column = column_of(core::ColumnShape::cylinder, {});
+  column.layers = core::graded_layers(2, 32, 0.5, 1.1);
+  column.cells[1] = int(column.layers.size());
+  const core::Grid grid = core::grid_of(column, nullptr, nullptr, ducts);
+  core::Field field = core::make_field(grid);
+  core::for_each_row(grid, {0, 10, 0}, {16, 11, 16}, [&](core::Index begin, core::Index end) {
+    for (auto c = std::size_t(begin); c < std::size_t(end); ++c) field[c] = grid.metric->volume[c] > 0 ? 1 : 0;
+  });
+  Smoothing(grid, 0.3, true).smooth_cells(field);
+  std::vector<double> found;
+  for (int j = 0; j < grid.cells[1]; ++j) found.push_back(field[std::size_t(grid.index(8, j, 8))]);
+  return found;
+}
+
+// A port two layers high far below.
+TEST(APort, SmoothsTheGradedTubeAboveItAsWithoutIt) {
+  const std::vector<double> without = spread_layer({}), with = spread_layer({{0, 0, {0.4, 0}, {0.6, 0.125}}});
+  EXPECT_LT(without[10], 0.5);
+  for (std::size_t j = 6; j < without.size(); ++j) EXPECT_NEAR(with[j], without[j], 1e-3) << j;
 }
 
 }  // namespace
