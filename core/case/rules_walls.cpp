@@ -349,6 +349,12 @@ std::vector<Rule> rules_of_each_wall() {
        flat_beside_round}};
 }
 
+/// Ports in the side of a cylinder end beyond two thirds of its radius.
+bool is_clear_of_sides(const Column& column, const InnerWall& wall) {
+  return column.is_round() && wall.is_round() && !wall.from.empty() && !wall.to.empty() &&
+         std::max(wall.from[0], wall.to[0]) + wall.thickness <= 0.5 * column.size[0];
+}
+
 std::vector<Rule> rules_of_any_wall() {
   return {
       wall_rule("bed.start", "bed.start = \"layered\" cannot be combined with it in a fluid; use \"mixed\"",
@@ -361,12 +367,18 @@ std::vector<Rule> rules_of_any_wall() {
                 [](const Scene& scene) {
                   return has_round_wall(scene) && scene.column.dimensions != 3 && !scene.column.around_axis();
                 }),
-      wall_rule("jet.at", "[[jet]], [[feed]] and [[discharge]] in the sides cannot be combined with it in a fluid yet",
+      wall_rule("jet.at",
+                "[[jet]], [[feed]] and [[discharge]] in the sides cannot be combined with it in a fluid yet, except in "
+                "a cylinder where it is round and at most half as wide",
                 [](const Scene& scene) {
                   const auto aside = [](const auto& parts) {
                     return std::any_of(parts.begin(), parts.end(), [](const auto& part) { return is_side(part.at); });
                   };
-                  return scene.fluid.present() && (aside(scene.jets) || aside(scene.feeds) || aside(scene.discharges));
+                  const bool clear = std::all_of(scene.walls.begin(), scene.walls.end(), [&](const InnerWall& wall) {
+                    return is_clear_of_sides(scene.column, wall);
+                  });
+                  return scene.fluid.present() && !clear &&
+                         (aside(scene.jets) || aside(scene.feeds) || aside(scene.discharges));
                 }),
       wall_rule("bed.start", "bed.start = \"random\" would place particles on both sides of it; use \"mixed\"",
                 [](const Scene& scene) { return scene.bed.start.kind == StartKind::random; })};

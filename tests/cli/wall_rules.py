@@ -56,7 +56,8 @@ WALLS = {
     '[[wall]] number {} is flat beside round walls: use shape = "cone" or "cylinder" for all of them, or column.shape = "box" and flat ones': [
         *ROUND, wall([0, 0.05], [0.02, 0.01])],
     **{f"[[wall]]: {told}": [wall([0, 0.05], [0.02, 0.01]), *words] for told, words in (
-        ("[[jet]], [[feed]] and [[discharge]] in the sides cannot be combined with it in a fluid yet",
+        ("[[jet]], [[feed]] and [[discharge]] in the sides cannot be combined with it in a fluid yet, except in a cylinder where it is round and "
+         "at most half as wide",
          ['jet=[{at="left", from=[0.05], to=[0.08], superficial_velocity=0.1}]']),
         ('bed.start = "layered" cannot be combined with it in a fluid; use "mixed"', ["bed.start=layered"]),
         ('column.sides = "periodic" would end it at the side; use "wall"', ["column.sides=periodic"]),
