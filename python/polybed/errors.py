@@ -41,6 +41,14 @@ class UnknownNameError(PlainError, KeyError):
     __str__ = BaseException.__str__  # KeyError shows its text in quotation marks
 
 
+class NoFieldError(PlainError, AttributeError):
+    """A run has no field of this name."""
+
+
+class NoStepError(PlainError, IndexError):
+    """No step of this number is stored."""
+
+
 class ArgumentError(PlainError, ValueError, TypeError):
     """An argument that a function does not take."""
 
@@ -70,9 +78,11 @@ def shown(error: BaseException) -> str:
 
 
 def show(kind: type[BaseException], error: BaseException, trace: TracebackType | None) -> None:
-    """sys.excepthook: a PlainError is shown in a line, any other error as Python shows it."""
+    """sys.excepthook: a PlainError is shown in a line, as is Ctrl-C within this package; any other error as Python shows it."""
     if isinstance(error, PlainError):
         print(shown(error), file=sys.stderr)
+    elif isinstance(error, KeyboardInterrupt) and any(PACKAGE in Path(frame.filename).parents for frame in traceback.extract_tb(trace)):
+        print("polybed: stopped by the user; resume=True continues", file=sys.stderr)
     else:
         sys.__excepthook__(kind, error, trace)
 

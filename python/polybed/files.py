@@ -70,7 +70,7 @@ def opened(path):
     try:
         number = os.open(path, os.O_RDONLY | os.O_NONBLOCK | os.O_CLOEXEC)
     except FileNotFoundError as error:
-        raise MissingError(f"{path} is missing: make it again with polybed, or restore it from a copy") from error
+        raise MissingError(f"{path} is missing: there is no such file") from error
     mode = os.fstat(number).st_mode
     if stat.S_ISREG(mode):
         return os.fdopen(number, "rb")

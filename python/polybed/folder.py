@@ -17,14 +17,15 @@ def runs_in(folder):
 
 class RunFolder:
     """A run directory that hands out the paths of its files as long as it contains the run that was opened: the one
-    of the model and of the resolved case, by its hash, that run.json names."""
+    of the model and of the resolved case that run.json names. A continuation can change keys of `run` and `output`."""
 
     def __init__(self, directory):
         self.path = Path(directory)
         names = {path.name for path in self.path.iterdir()} if self.path.is_dir() else {""}
         if names and not names & CONTENTS:
-            raise MissingError(f"{directory} is no run directory{'; it contains some: use polybed.table' if runs_in(self.path) else ''}")
-        self._record, self._stamp, self._identity = {}, None, None
+            raise MissingError(f"{directory} is no run directory; it contains {'some: use polybed.table' if runs_in(self.path) else 'none'}"
+                               if self.path.is_dir() else f"{directory}: no such run directory")
+        self._record, self._stamp, self._first = {}, None, None
         self.record()
 
     def record(self):
@@ -35,12 +36,12 @@ class RunFolder:
         status = path.stat()
         stamp = (status.st_mtime_ns, status.st_ino, status.st_size)
         if stamp != self._stamp:
-            self._record, self._stamp = read_record(path), stamp
-        found = (self._record["model"], self._record["case_hash"])
-        self._identity = self._identity or found
-        if found != self._identity:
-            raise ReplacedError(f"{self.path} held a run by {self._identity[0]} of the case {self._identity[1]} and now holds another, "
-                                f"by {found[0]} of {found[1]}: open it again with polybed.read, and give each run a folder of its own")
+            found = read_record(path)
+            first = self._first = self._first or found
+            if first["case_hash"] != found["case_hash"] and lasting(first) != lasting(found) or first["model"] != found["model"]:
+                raise ReplacedError(f"{self.path} held a run by {first['model']} of the case {first['case_hash']} and now holds another, by "
+                                    f"{found['model']} of {found['case_hash']}: open it again with polybed.read, and give each run a folder of its own")
+            self._record, self._stamp = found, stamp
         return self._record
 
     def file(self, *names):
@@ -69,6 +70,11 @@ def case_of(record):
         return tomllib.loads(record.get("case") or "")
     except (tomllib.TOMLDecodeError, TypeError, AttributeError) as error:
         raise DamagedError("the case in run.json", error) from error
+
+
+def lasting(record):
+    """What no continuation of a run changes: its case without the keys of `run` and `output`, and its drag law."""
+    return {part: keys for part, keys in case_of(record).items() if part not in ("run", "output")} or record["case_hash"], record.get("drag_law")
 
 
 def drift_lines(record):

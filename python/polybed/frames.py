@@ -9,9 +9,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from polybed.checks import Check
+from polybed.errors import MissingError
 from polybed.overrides import keys_of_case
 from polybed.packages import needed
 from polybed.quantities import unit_of_column
+from polybed.study.output import writes
 
 with needed(False):
     import pandas as pd
@@ -38,11 +40,18 @@ def keys_of(case: str) -> dict[str, Any]:
     return keys | constant
 
 
+def record_of(run: Run) -> dict[str, Any]:
+    """The record of a run; one that no process writes any more, as after a kill, does not run. Raises MissingError."""
+    if not (record := run.record):
+        raise MissingError(f"{run.directory} has no run.json: a run writes it at its start")
+    return record | {"state": "stopped"} if record["state"] == "running" and not writes(run.directory) else record
+
+
 def table(rows: Iterable[Run | Check]) -> pd.DataFrame:
     """A row for each run: the keys in which the cases differ, the model if there are several, the state of the run, and the numbers and
     words of its card, a mean with its interval as two columns; those that are alike in all rows come last. The index is the folder."""
     each = list(rows)
-    records = [{"case": one["case"], "model": "check"} if isinstance(one, Check) else one.record for one in each]
+    records = [{"case": one["case"], "model": "check"} if isinstance(one, Check) else record_of(one) for one in each]
     cards = [dict(card_of(one["expected"] if isinstance(one, Check) else one.card)) for one in each]
     keys = [keys_of(record.get("case", "")) for record in records]
     first = [key for key in dict.fromkeys(itertools.chain(*keys)) if any(one.get(key) != keys[0].get(key) for one in keys)]

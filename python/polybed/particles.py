@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from polybed.errors import NoFieldError, NoStepError, UnknownNameError
 from polybed.files import fits, open_hdf5, rising, whole
 
 EMPTIED = 0.05  # of the particles that were there: fewer make no picture
@@ -30,7 +31,7 @@ class ParticleStep:
 
     def __getattr__(self, name):
         if name not in self.NAMES:
-            raise AttributeError(f"particles have no '{name}'; they have {', '.join(self.NAMES)}")
+            raise NoFieldError(f"particles have no '{name}'; they have {', '.join(self.NAMES)}")
         with open_hdf5(self._file, "polybed particles step") as file:
             values = fits(file["step"][name][...], (self.count, *([3] if name in self.VECTORS else [])), name)
             self._check(name, values)
@@ -59,7 +60,7 @@ class ParticleStep:
         """Which particles are of a species, as a mask."""
         names = self._particles.species
         if name not in names:
-            raise KeyError(f"there is no species {name}; there are {', '.join(names)}")
+            raise UnknownNameError(f"there is no species {name}; there are {', '.join(names)}")
         return self.species == names.index(name)
 
 
@@ -91,11 +92,11 @@ class Particles:
         if isinstance(step, slice):
             return [self[n] for n in range(*step.indices(len(self)))]
         if not -len(self) <= step < len(self):
-            raise IndexError(f"{self.folder.path} has {len(self)} steps of particles, none numbered {step}")
+            raise NoStepError(f"{self.folder.path} has {len(self)} steps of particles, none numbered {step}")
         return ParticleStep(self, step % len(self))
 
     def step_at(self, time):
         """Number of the stored step nearest to a time."""
         if len(self) == 0:
-            raise IndexError(f"{self.folder.path} has no stored particles yet")
+            raise NoStepError(f"{self.folder.path} has no stored particles yet")
         return nearest(self.time, time)

@@ -7,15 +7,17 @@ import functools
 import itertools
 import math
 import os
+import re
 import tomllib
 import warnings
 from collections import Counter
 from collections.abc import Callable, Iterable, Mapping
+from numbers import Integral
 from pathlib import Path
 from typing import Any, ParamSpec, TypeVar
 
 from polybed.checks import Check
-from polybed.ending import NUMBERS
+from polybed.ending import NUMBERS, WRONG_CASE
 from polybed.errors import ArgumentError, ProgramError
 from polybed.files import FAULTS, MISFITS, read_json
 from polybed.overrides import Overrides, Value, plain, toml, words
@@ -49,7 +51,9 @@ def names_itself(function: Callable[Arguments, Answer]) -> Callable[Arguments, A
             return function(*arguments, **options)
         except ProgramError as error:
             first = str(next(iter((*arguments, *options.values())), ""))
-            said = functools.reduce(lambda text, pair: text.replace(*pair), IN_PYTHON.items(), error.said)
+            said = re.sub(r"(?<=--set )(\S+): (?=\1\b)", "", error.said)  # a key twice
+            said = functools.reduce(lambda text, pair: text.replace(*pair), IN_PYTHON.items(), said)
+            said += f'\nthe shipped case is polybed.case("{first}")' if first in shipped() and not Path(first).exists() else ""
             raise ProgramError(error.words, error.code, said, f"polybed.{function.__name__}({first!r})") from None
     return called
 
@@ -73,13 +77,17 @@ def cases_folder() -> Path | None:
     return next((each for each in tried if each.is_dir()), None)
 
 
+def shipped() -> dict[str, Path]:
+    """The case files of shipped cases and templates by name."""
+    folder = cases_folder() or Path("cases")
+    return {path.parent.name: path for pattern in ("templates/*/case.toml", "*/case.toml") for path in sorted(folder.glob(pattern))}
+
+
 def case(name: str) -> Path:
     """Path of the case file of a shipped case or a template: case("small-binary"), case("liquid-bed"). Raises KeyError with the names.
     overrides can replace all that such a case describes, {"species": [{"name": "sand", "diameter": "1 mm", "density": 2650}, ...]}."""
-    folder = cases_folder() or Path("cases")
-    found = {path.parent.name: path for pattern in ("templates/*/case.toml", "*/case.toml") for path in sorted(folder.glob(pattern))}
-    if name not in found:
-        raise unknown(folder, name, sorted(found))
+    if name not in (found := shipped()):
+        raise unknown(cases_folder(), name, sorted(found))
     return found[name]
 
 
@@ -176,9 +184,13 @@ def made(case: Place, model: str, words: list[str], known: tuple[str, str], rank
     return read(output)
 
 
-def must_be_model(model: str) -> None:
+def must_be_right(model: Any, **counts: Any) -> None:
     if model not in MODELS:
-        raise ArgumentError(f"there is no model {model!r}; there are {', '.join(MODELS)}")
+        hint = "; keys of the case are overrides=" if isinstance(model, Mapping) else ""
+        raise ArgumentError(f"there is no model {model!r}; there are {', '.join(MODELS)}{hint}")
+    for name, count in counts.items():
+        if not isinstance(count, Integral) or count < 1:
+            raise ArgumentError(f"{name} = {count!r}: a whole number from 1 on")
 
 
 @names_itself
@@ -193,7 +205,7 @@ def run(case: Place, model: str = "tfm", overrides: Overrides | None = None, out
     resume: continues from the checkpoint in the folder: after a run was killed, or in the same `output` with a longer `until`. A run there
     that is later than `until` already is opened, one that failed begins anew, and one of another case or model raises ProgramError
     """
-    must_be_model(model)
+    must_be_right(model, ranks=ranks)
     words = settings(overrides, until)
     known = resolved(case, words)
     place = folder_of(output, case, model, known[1])
@@ -219,7 +231,7 @@ def differing_effects(texts: Iterable[str]) -> str:
 
 
 @names_itself
-def sweep(case: Place, key: str | Mapping[str, Iterable[Value]], values: Iterable[Value] = (), model: str = "tfm",
+def sweep(case: Place, key: str | Mapping[str, Iterable[Value]], values: Iterable[Value] | None = None, model: str = "tfm",
           overrides: Overrides | None = None, output: Place | None = None, until: Value | None = None, at_once: int = 1,
           quiet: bool = False, resume: bool = False, keep_failed: bool = False) -> list[Run]:
     """Runs a case for several values of a key and returns the runs in their order, each in a folder of its own, called by the value
@@ -232,13 +244,13 @@ def sweep(case: Place, key: str | Mapping[str, Iterable[Value]], values: Iterabl
     keep_failed: returns also runs whose numerics failed, code 3, of which `record["state"]` says why; otherwise the first one ends the sweep
     Warns before the runs if effects that the case leaves to the program differ between them.
     """
-    must_be_model(model)
-    if at_once < 1:
-        raise ArgumentError(f"at_once is {at_once}; it is 1 or more")
-    axes = {key: values} if isinstance(key, str) else key
+    must_be_right(model, at_once=at_once)
+    if values is not None and not isinstance(key, str):
+        raise ArgumentError("a sweep over {key: values} has all its values there: leave out the list behind it")
+    axes = {key: () if values is None else values} if isinstance(key, str) else key
     lists = [list(each) if isinstance(each, Iterable) and not isinstance(each, str) else [each] for each in axes.values()]
     each = [dict(zip(axes, point)) for point in itertools.product(*lists)]
-    if not each:
+    if not axes or not each:
         raise ArgumentError(f"a sweep needs values for {' and '.join(axes) or 'a key'}")
     folder = Path(output) if output else Path("runs") / f"{name_of(case)}-{model}-sweep"
     words = [settings(dict(overrides or {}) | point, until) for point in each]
@@ -255,6 +267,9 @@ def sweep(case: Place, key: str | Mapping[str, Iterable[Value]], values: Iterabl
         return found
     with side_by_side(at_once) as pool:
         known = list(pool.map(lambda more: resolved(case, more), words))
+        for number, this in enumerate(known):
+            if (first := known.index(this)) < number:
+                raise ArgumentError(f"{each[first]} and {each[number]} are the same case: leave out one")
         if differ := differing_effects(text for text, _ in known):
             warnings.warn(differ, stacklevel=3)  # at the caller of sweep
         return list(pool.map(one, range(len(each)), known))
@@ -270,11 +285,14 @@ def compare(case: Place, tfm: Run | Place | None = None, dem: Run | Place | None
     page: also writes comparison.html
     """
     words = settings(overrides, until)
-    output = study_folder(output, case, "compare", words)
-    runs = {model: run(case, model, overrides, output / model, until, quiet=quiet, label=model) if given is None else given
-            for model, given in (("tfm", tfm), ("dem", dem))}
-    given = options_of(**{model: getattr(made, "directory", made) for model, made in runs.items()})
-    call("compare", case, *words, *given, "-o", output, *([] if page else ["--no-picture"]), tell=teller(quiet))
+    checked = answer_of("check", case, *words)
+    output = folder_of(output, case, "compare", checked["hash"])
+    given = {model: one if isinstance(one, Run) else read(one) for model, one in (("tfm", tfm), ("dem", dem)) if one is not None}
+    if refused := [why for model in MODELS if model not in given for why in checked["refused"][model]]:
+        raise ProgramError([], WRONG_CASE, "\n".join(refused))
+    runs = {model: given.get(model) or run(case, model, overrides, output / model, until, quiet=quiet, label=model) for model in MODELS}
+    words += [word for model, one in runs.items() for word in (f"--{model}", str(one.directory))]
+    call("compare", case, *words, "-o", output, *([] if page else ["--no-picture"]), tell=teller(quiet))
     return read_json(output / "comparison.json", "polybed comparison")
 
 

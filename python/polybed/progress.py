@@ -60,7 +60,7 @@ class BarOfRuns(Bar):
     def __init__(self, count: int, quiet: bool = False) -> None:
         super().__init__("runs")
         self.share, self.lock, self.tenths = [0.0] * count, threading.Lock(), 0
-        self.quiet, self.redrawn, self.warned = quiet, redrawn(), set[str]()
+        self.quiet, self.redrawn, self.warned = quiet, redrawn(), dict[str, tuple[str, set[int]]]()
 
     def hearer(self, run: int, name: str) -> Callable[[str], None]:
         """What hears each line of a run, by its number and name."""
@@ -68,14 +68,19 @@ class BarOfRuns(Bar):
             with self.lock:
                 if found := SIMULATED.match(line):
                     self.advance(run, min(float(found[1]) / float(found[2]), 0.99))
-                elif line.startswith("warning") and not self.quiet and (kind := NUMBER.sub("", line)) not in self.warned:
-                    self.warned.add(kind)
-                    self.above(f"{name}: {line}")
+                elif line.startswith("warning") and not self.quiet:
+                    first, runs = self.warned.setdefault(NUMBER.sub("", line), (f"{name}: {line}".rstrip(), set()))
+                    if not runs:
+                        self.above(first)
+                    runs.add(run)
         return hear
 
     def finish(self, run: int, name: str) -> None:
         with self.lock:
             self.advance(run, 1.0, name)
+            for first, runs in self.warned.values() if min(self.share) == 1.0 else ():
+                if len(runs) > 1:
+                    put(plain(f"{first}; and {len(runs) - 1} more\n"))
 
     def advance(self, run: int, share: float, name: str = "") -> None:
         self.share[run] = share

@@ -94,6 +94,8 @@ def find(run: Run, name: str, source: str | None = None) -> Quantity:
         quantity = found_in(run, key, name)
         if quantity is not None:
             return quantity
+    if others := [key for key in SOURCES if found_in(run, key, name) is not None]:
+        raise UnknownNameError(f"{run.directory} has no {name} in {source}; it is in {' and '.join(others)}")
     raise unknown(run.directory, name, names(run, source))
 
 

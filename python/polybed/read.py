@@ -5,6 +5,7 @@ Nothing is read before it is asked for, and a run that is still going on can be 
 
 from __future__ import annotations
 
+import difflib
 import functools
 import os
 from collections.abc import Iterable
@@ -15,6 +16,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from polybed import quantities
+from polybed.errors import NoFieldError, NoStepError
 from polybed.files import DamagedError, contents_of, finite, fits, open_hdf5, rising, whole_lines
 from polybed.folder import RunFolder
 from polybed.packages import plain
@@ -36,10 +38,7 @@ class Series:
     def __getitem__(self, step):
         if isinstance(step, slice):
             return np.array([self[n] for n in range(*step.indices(len(self)))])
-        count = len(self)
-        if not -count <= step < count:
-            raise IndexError(f"{self._name} has {count} steps, none numbered {step}")
-        return self._run.fields_at(step % count, [self._name])[self._name]
+        return self._run.fields_at(step, [self._name])[self._name]
 
 
 def kinds_among(names: list[str]) -> dict[str, list[str]]:
@@ -61,30 +60,51 @@ def sums_among(names: Iterable[str]) -> dict[str, list[str]]:
 
 class Run:
     """A run directory: run.card has the results, run.frame() the history, run.dataset() the fields, run.names() the names for run.quantity().
-    Fields are also attributes: run.voidage[-1] is the last one stored, [y][x]."""
+    Fields are also attributes: run.voidage[-1] is the last one stored, [y][x]. The stored times are those at the first look at them: open a
+    run that goes on again with polybed.read for later ones."""
 
     def __init__(self, directory: str | os.PathLike[str]) -> None:
         self._folder = RunFolder(directory)
-        self.directory: Path = self._folder.path
-        self.time: np.ndarray = np.empty(0)  # of the stored fields, s
-        self.faces: dict[str, np.ndarray] = {}  # of the cells along x, y, z, m
-        self.open: np.ndarray | None = None  # where a wall closes cells: open volume of each over a whole one's, in the order of fields
+        self._kept: dict[str, Any] = {}
+        self._stored()
+        self.particles  # noqa: B018  one that cannot be read is refused here
+
+    directory: Any = property(lambda run: run._folder.path, doc="The folder, a Path.")
+    time: Any = property(lambda run: run._stored()["time"], doc="Times of the stored fields, s.")
+    faces: Any = property(lambda run: run._stored()["faces"], doc="Faces of the cells along x, y, z, m, by axis.")
+    open: Any = property(lambda run: run._stored()["open"],
+                         doc="None, or of cells closed by a wall the open volume over that of a whole one, in the order of fields.")
+    fields: Any = property(lambda run: run._stored()["fields"], doc="Names of the stored fields.")
+    _sums: Any = property(lambda run: run._stored()["sums"])
+
+    def _stored(self):
+        """What fields.h5 says; kept from when it contains a step."""
+        if "time" in self._kept:
+            return self._kept
+        found = {"time": np.empty(0), "faces": {}, "open": None, "fields": [], "sums": {}}
         path = self._folder.file("fields.h5")
         if path.exists():
             with open_hdf5(path, "polybed fields") as file:
-                self.time = rising(file["time_s"][:], "time_s")
-                self.faces = {axis: rising(file["grid"][axis][:], f"grid/{axis}") for axis in "xyz"}
+                found["time"] = rising(file["time_s"][:], "time_s")
+                faces = found["faces"] = {axis: rising(file["grid"][axis][:], f"grid/{axis}") for axis in "xyz"}
                 if "open" in file["grid"]:
-                    values, cells = file["grid"]["open"][...], tuple(len(self.faces[axis]) - 1 for axis in "zyx")
-                    self.open = fits(values, cells[3 - values.ndim :], "grid/open")
-        self.fields: list[str] = []
-        self._sums: dict[str, list[str]] = {}
-        if len(self.time):
+                    values, cells = file["grid"]["open"][...], tuple(len(faces[axis]) - 1 for axis in "zyx")
+                    found["open"] = fits(values, cells[3 - values.ndim :], "grid/open")
+        if len(found["time"]):
             with self._open_step(0) as file:
-                self.fields = sorted(file["step"])
-            self._sums = sums_among(self.fields)
-            self.fields = sorted([*self.fields, *self._sums])
-        self.particles = Particles(self._folder)
+                names = sorted(file["step"])
+            found["sums"] = sums_among(names)
+            found["fields"] = sorted([*names, *found["sums"]])
+            self._kept.update(found)
+        return found
+
+    @property
+    def particles(self) -> Particles:
+        """The particles: particles[-1] is the last step."""
+        found = self._kept.get("particles") or Particles(self._folder)
+        if len(found):
+            self._kept["particles"] = found
+        return found
 
     def __repr__(self) -> str:
         record = self.record
@@ -101,14 +121,17 @@ class Run:
         return open_hdf5(self._folder.file("fields", f"{step + 1:06d}.h5"), "polybed fields step")
 
     def fields_at(self, step, names):
-        """Fields of a stored step by name, which is quicker than one by one."""
+        """Fields of a stored step by name, which is quicker than one by one. Steps count from 0; -1 is the last."""
+        count = len(self.time)
+        if not -count <= step < count:
+            raise NoStepError(f"{self.directory} has {count} stored steps, from 0 on, none numbered {step}")
         cells = tuple(len(self.faces[axis]) - 1 for axis in "zyx")
 
         def stored(file, name):
             values = file["step"][name][...]
             grid = cells if values.shape[:3] == cells else cells[1:]
             return fits(values, (*grid, len(grid)) if name.startswith("u_") else grid, name)
-        with self._open_step(step) as file:
+        with self._open_step(step % count) as file:
             return {name: functools.reduce(np.add, (stored(file, one) for one in self._sums.get(name, [name]))) for name in names}
 
     def field(self, name: str) -> Series:
@@ -118,9 +141,12 @@ class Run:
         return Series(self, name)
 
     def __getattr__(self, name):
-        if not name.startswith("_") and name in self.__dict__.get("fields", ()):
+        if name.startswith("_"):
+            raise AttributeError(name)
+        if name in self.fields:
             return Series(self, name)
-        raise AttributeError(f"a run has no field '{name}', only {', '.join(self.__dict__.get('fields', []))}; try run.quantity('{name}')")
+        near = difflib.get_close_matches(name, self.names(), 1) or [name]
+        raise NoFieldError(f"a run has no field '{name}', only {', '.join(self.fields)}; try run.quantity('{near[0]}')")
 
     def __dir__(self):
         return [*super().__dir__(), *filter(str.isidentifier, self.fields)]
@@ -223,7 +249,7 @@ class Run:
     def step_at(self, time: float) -> int:
         """Number of the stored step nearest to a time."""
         if len(self.time) == 0:
-            raise IndexError(f"{self.directory} has no stored fields yet")
+            raise NoStepError(f"{self.directory} has no stored fields yet")
         return nearest(self.time, time)
 
 

@@ -109,10 +109,10 @@ def start(words: Iterable[object], ranks: int = 1, tied: bool = False, **options
     return child
 
 
-def call(*options: object, ranks: int = 1, tell: Callable[[str], None] | None = None, given: str | None = None) -> str:
-    """Runs a command of the program and returns what it printed; each line that it says is told as it comes. One that is interrupted,
-    or whose caller is, ends with a checkpoint. given: its standard input. Raises ProgramError."""
-    said, pipe = [], subprocess.PIPE
+def call(*options: object, ranks: int = 1, tell: Callable[[str], object] = str, given: str | None = None) -> str:
+    """Runs a command of the program and returns what it printed; each line that it says is told as it comes, but not its error. One that is
+    interrupted, or whose caller is, ends with a checkpoint. given: its standard input. Raises ProgramError."""
+    said, held, pipe = list[str](), list[str](), subprocess.PIPE  # held: the last statement, which can be the error that is raised
     with start(options, ranks, stdin=subprocess.DEVNULL if given is None else pipe, stdout=pipe, stderr=pipe, encoding="utf-8",
                errors="replace") as child, ThreadPoolExecutor(1) as reader:
         try:
@@ -122,14 +122,19 @@ def call(*options: object, ranks: int = 1, tell: Callable[[str], None] | None = 
                     child.stdin.write(given)
             for line in child.stderr or ():
                 said.append(line)
-                if tell:
-                    tell(line)
+                held.append(line)
+                ended = len(held) if line.startswith(("t ", "warning")) else 0 if line.startswith(" ") else len(held) - 1
+                for each in held[:ended]:
+                    tell(each)
+                del held[:ended]
             child.wait()
         except BaseException:
             child.terminate()
             raise
     if child.returncode != 0:
         raise ProgramError(line_of(options, ranks), child.returncode, "".join(said))
+    for each in held:
+        tell(each)
     return printed.result()
 
 

@@ -10,7 +10,7 @@ from typing import Any
 
 from polybed.checks import Check
 from polybed.files import read_json
-from polybed.folder import runs_in
+from polybed.folder import RunFolder, runs_in
 from polybed.overrides import Overrides, Value
 from polybed.program import Place, names_itself, options_of, settings, study_folder, teller
 from polybed.read import Run, read
@@ -25,14 +25,14 @@ def measure(run: Run | Place) -> dict[str, Any]:
     Returns {"time_s": [...], "measures": {name: {"unit", "help", "values"}}}: lists over the stored times, None where a measure
     has no value. Raises ProgramError.
     """
-    return answer_of("measure", getattr(run, "directory", run))
+    return answer_of("measure", run.directory if isinstance(run, Run) else RunFolder(run).path)
 
 
 def table(runs: Iterable[Run | Check | Place] | Run | Check | Place) -> Any:
     """Runs as a pandas.DataFrame with a row each: the keys in which their cases differ, the model if there are both, the state of the run,
     and its card, what differs first. The unit ends a column's name; NAME_interval is half of the 95 % interval of the mean NAME.
 
-    runs: runs, or their directories, as `polybed.sweep` returns them; a folder stands for the runs in it; also a single one. Answers of
+    runs: runs, or their directories, as `polybed.sweep` returns them; a folder stands for the runs directly in it; also a single one. Answers of
     polybed.check have what they expect in the row of a model "check": [polybed.check(case, {key: value}) for value in values]
     """
     from polybed import frames

@@ -60,8 +60,11 @@ class Package(Scratch):
         self.assertRegex(repr(run.names()), "^history   bed_height_m, (.*)\nprofiles  p, phi_coarse, .*\nfields    .*, voidage$")
         self.assertRegex(repr(height), r"^Quantity of shape \(101,\) in m, 0\.\d+ to 0\.\d+ at 0 to 0\.01 s$")
         np.testing.assert_array_equal(1 - height / 2, 1 - run.history["bed_height_m"] / 2)
-        with self.assertRaisesRegex(AttributeError, "no field 'bed_height', only .*voidage; try run.quantity"):
-            run.bed_height  # noqa: B018
+        for name, near in (("bed_height", "bed_height_m"), ("voidag", "voidage")):
+            with self.assertRaisesRegex(AttributeError, rf"no field '{name}', only .*voidage; try run.quantity\('{near}'\)"):
+                getattr(run, name)
+        with self.assertRaisesRegex(KeyError, "has no bed_height in fields; it is in history$"):
+            run.quantity("bed_height", "fields")
 
     def test_a_finished_run_is_opened_and_another_case_run_anew(self):
         record = self.run_short().directory / "run.json"
@@ -135,6 +138,10 @@ class Package(Scratch):
             with contextlib.redirect_stderr(io.StringIO()) as shown:
                 package.call("tfm", tell=package.teller(False, name))
             self.assertEqual(shown.getvalue(), lines, "of a run among others the card is left out")
+        script.write_text("#!/bin/sh\nprintf 'remark\\nwrong:\\n  this\\n' >&2\nexit 2\n")
+        with contextlib.redirect_stderr(io.StringIO()) as shown, self.assertRaisesRegex(polybed.ProgramError, "wrong:\n  this$"):
+            package.call("tfm", tell=package.teller(False))
+        self.assertEqual(shown.getvalue(), "remark\n", "the error is raised, not shown")
         os.environ["POLYBED"] = program.PROGRAM
         for quiet in (False, True):
             with contextlib.redirect_stderr(io.StringIO()) as shown:
@@ -197,15 +204,36 @@ class Package(Scratch):
         with self.assertRaisesRegex(polybed.ProgramError, r"(?s)^polybed\.run\(.*case\.toml.\) ended with 2.*bed.start") as caught:
             polybed.run(CASE, overrides={"bed.start": "upside down"}, output=self.folder / "none")
         self.assertEqual(caught.exception.code, WRONG_CASE)
-        with self.assertRaisesRegex(polybed.ProgramError, "ended with 2: overrides: tfm.rtl: unknown key"):
-            polybed.check(CASE, {"tfm.rtl": 1})
+        for keys, said in (({"tfm.rtl": 1}, "tfm.rtl: unknown key"), ({"tfm.rtol": "1 m"}, "tfm.rtol = '1 m': ")):
+            with self.assertRaisesRegex(polybed.ProgramError, f"ended with 2: overrides: {said}"):
+                polybed.check(CASE, keys)
         with self.assertRaisesRegex(polybed.ProgramError, "'fast': expected a number"):
             polybed.sweep(CASE, "inlet.superficial_velocity", [0.02, "fast"], output=self.folder / "none")
         self.assertFalse((self.folder / "none").exists(), "nothing has run")
         with self.assertRaisesRegex(ValueError, "a sweep needs values for tfm.rtol"):
             polybed.sweep(CASE, "tfm.rtol")
-        with self.assertRaisesRegex(ValueError, "at_once is 0; it is 1 or more"):
-            polybed.sweep(CASE, "tfm.rtol", [1e-3], at_once=0)
+        with self.assertRaisesRegex(ValueError, "has all its values there"):
+            polybed.sweep(CASE, {"tfm.rtol": [1e-3]}, [1e-4])
+        with self.assertRaisesRegex(ValueError, "a sweep needs values for a key"):
+            polybed.sweep(CASE, {})
+        with self.assertRaisesRegex(ValueError, "'20 mm/s'} and .*0.02} are the same case"):
+            polybed.sweep(CASE, "inlet.superficial_velocity", ["20 mm/s", 0.02], output=self.folder / "none")
+        self.assertFalse((self.folder / "none").exists(), "nothing has run")
+        for ask, counts in ((polybed.run, ({"ranks": wrong} for wrong in (0, -1, "2", 1.5))), (polybed.sweep, [{"at_once": 0}])):
+            for count in counts:
+                with self.assertRaisesRegex(ValueError, "= .*: a whole number from 1 on"):
+                    ask(CASE, **({"key": "tfm.rtol", "values": [1e-3]} if ask is polybed.sweep else {}), **count)
+        with self.assertRaisesRegex(ValueError, "keys of the case are overrides="):
+            polybed.run(CASE, {"tfm.rtol": 1e-3})
+        with self.assertRaisesRegex(polybed.ProgramError, r'polybed.case\("liquid-bed"\)'):
+            polybed.check("liquid-bed")
+
+    def test_a_comparison_that_a_model_refuses_makes_no_run(self):
+        with self.assertRaisesRegex(polybed.ProgramError, "ended with 2: .*law of contact"):
+            polybed.compare(CASE, overrides={"effects.contact": "none"}, output=self.folder / "both")
+        with self.assertRaisesRegex(FileNotFoundError, "none: no such run directory"):
+            polybed.compare(CASE, dem=self.folder / "none", output=self.folder / "both")
+        self.assertFalse((self.folder / "both").exists())
 
 
 class Gallery(Scratch):

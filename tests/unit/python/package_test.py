@@ -43,7 +43,8 @@ class Bars(unittest.TestCase):
         self.assertEqual(shown_by(lambda: other("bed  fluidised\n")), "")
         self.assertIn("[" + "#" * 20 + "." * 20 + "] 0 of 2 done", shown_by(lambda: other("t 0.5/1 s\n")))
         self.assertIn("[" + "#" * 30 + "." * 10 + "] 1 of 2 done", shown_by(lambda: bar.finish(0, "a")))
-        self.assertTrue(shown_by(lambda: bar.finish(1, "b")).endswith(" \r"), "the bar of what is done is wiped")
+        told = shown_by(lambda: bar.finish(1, "b"))
+        self.assertTrue(told.endswith(" \ra: warning: w; and 1 more\na: warning: w 2.5e-3; and 1 more\n"), "the bar of what is done is wiped")
 
     def test_a_pipe_has_lines(self):
         with contextlib.redirect_stderr(io.StringIO()):
@@ -51,7 +52,7 @@ class Bars(unittest.TestCase):
         one = bar.hearer(0, "a")
         self.assertEqual(shown_by(lambda: [one(f"t {t}/1 s\n") for t in (0, 0.1, 0.5, 0.5, 0.55)]), "runs: 25 % simulated, 0 of 2 done\n")
         self.assertEqual(shown_by(lambda: one("warning: w\n")), "a: warning: w\n")
-        self.assertEqual(shown_by(lambda: bar.finish(0, "a")), "1 of 2 runs done: a\n")
+        self.assertEqual(shown_by(lambda: [bar.finish(n, "a") for n in range(2)]), "1 of 2 runs done: a\n2 of 2 runs done: a\n", "one run alone warned")
         self.assertEqual(shown_by(lambda: progress.BarOfRuns(1, quiet=True).finish(0, "a")), "")
 
 
@@ -74,8 +75,15 @@ class Errors(unittest.TestCase):
             self.assertEqual(second, f"  {script}:2: polybed.read({folder!r})")
 
     def test_so_is_a_wrong_argument_of_the_user(self):
-        for wrong in ("run('x.toml', 'tmf')", "read('/')", "sweep('x.toml', 'tfm.rtol', [1e-3], at_once=0)", "check('x.toml', 'tfm.rtol')"):
+        for wrong in ("run('x.toml', 'tmf')", "read('/')", "sweep('x.toml', 'tfm.rtol', [1e-3], at_once=0)", "check('x.toml', 'tfm.rtol')",
+                      "run('x.toml', ranks='2')", "run('x.toml', {'tfm.rtol': 1})", "sweep('x.toml', {'tfm.rtol': [1]}, [2])", "sweep('x.toml', {})",
+                      "table('/proc/none')", "read_table('/none.h5')", "measure('/none')"):
             self.assertRegex(self.fails(f"import polybed; polybed.{wrong}"), r"^polybed\.(Argument|Missing)Error: [^\n]*\n$")
+
+    def test_so_is_an_interrupt_within_the_package(self):
+        script = "import polybed.program as program; program.settings = lambda *_: (_ for _ in ()).throw(KeyboardInterrupt); program.check('x')"
+        done = subprocess.run(["/usr/bin/python3", "-c", script], env=os.environ | {"PYTHONPATH": str(PACKAGE)}, text=True, capture_output=True)
+        self.assertEqual((done.returncode, done.stderr), (-2, "polybed: stopped by the user; resume=True continues\n"))
 
     def test_other_errors_are_shown_as_ever(self):
         self.assertIn("Traceback", self.fails("import polybed; polybed.read(1 / 0)"))

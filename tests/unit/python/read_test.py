@@ -14,7 +14,8 @@ import numpy as np
 WRITER, PACKAGE = sys.argv[1], sys.argv[2]
 sys.path.insert(0, PACKAGE)
 
-import polybed
+import polybed  # noqa: E402
+from polybed import errors  # noqa: E402
 
 
 def described(directory, xdmf):
@@ -57,8 +58,10 @@ class Read(WrittenRun):
         self.assertEqual(run.species, ["fine", "coarse"])
         with self.assertRaises(AttributeError):
             run.phi_none
-        with self.assertRaises(IndexError):
-            run.phi_fine[5]
+        for ask in (lambda: run.phi_fine[5], lambda: run.fields_at(-6, ["voidage"])):
+            with self.assertRaisesRegex(errors.NoStepError, "has 5 stored steps, from 0 on, none numbered"):
+                ask()
+        np.testing.assert_array_equal(run.fields_at(-1, ["voidage"])["voidage"], run.voidage[4])
 
     def test_links_lead_to_the_steps(self):
         with h5py.File(self.directory / "fields.h5", "r") as file:
@@ -171,6 +174,16 @@ class ReadBoth(WrittenRun):
         self.assertEqual((len(run.time), len(run.particles)), (5, 5))
         self.assertEqual(run.species, ["fine", "coarse"])
         self.assertEqual(run.phi_fine[0].shape, (60, 18))
+
+    def test_what_is_stored_later_is_seen(self):
+        later = self.directory.with_name("later")
+        self.directory.rename(later)
+        self.directory.mkdir()
+        run = polybed.read(self.directory)
+        self.assertEqual((run.names("fields"), run.species, run.size, len(run.time), len(run.particles)), ([], [], (0, 0), 0, 0))
+        later.rename(self.directory)
+        self.assertEqual((len(run.time), len(run.particles), run.species, run.size), (5, 5, ["fine", "coarse"], (0.06, 0.2)))
+        self.assertIn("phi_fine", run.names("fields"))
 
 
 class ReadThreeDimensions(WrittenRun):
