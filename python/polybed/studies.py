@@ -23,7 +23,7 @@ def measure(run: Run | Place) -> dict[str, Any]:
 
     run: a run, or its directory
     Returns {"time_s": [...], "measures": {name: {"unit", "help", "values"}}}: lists over the stored times, None where a measure
-    has no value. Raises ProgramError.
+    has no value; "window" and "in_window", means over its last part. Raises ProgramError, FileNotFoundError.
     """
     return answer_of("measure", run.directory if isinstance(run, Run) else RunFolder(run).path)
 

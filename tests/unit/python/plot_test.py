@@ -78,7 +78,7 @@ class Style(SampleRun):
         rows[0] = [name.replace("_fine_", "_sand.1_").replace("_coarse_", "_sand.2_") for name in rows[0]] + ["centre_sand_m"]
         path.write_text("".join(",".join(row if n == 0 else [*row, "0.05"]) + "\n" for n, row in enumerate(rows)))
         stored = {"phi_sand.1": self.sample.phi_fine[4], "phi_sand.2": self.sample.phi_coarse[4]}
-        with unittest.mock.patch.object(self.sample, "fields", list(stored)), \
+        with unittest.mock.patch.object(type(self.sample), "fields", list(stored)), \
                 unittest.mock.patch.object(self.sample, "field", lambda name: {4: stored[name]}), \
                 unittest.mock.patch.object(self.sample, "fields_at", lambda _, names: {name: stored[name] for name in names}):
             self.assertEqual(self.sample.kinds, {"sand": ["sand.1", "sand.2"]})
@@ -242,8 +242,7 @@ class AroundAxis(SampleRun):
         self.assertIn("both sides", on_page["note"])
 
     def test_nothing_is_shown_beyond_the_wall(self):
-        self.sample.open = np.ones((60, 18))
-        self.sample.open[:, -1] = 0
+        self.sample._stored()["open"] = np.tile(np.arange(18) < 17, (60, 1)).astype(float)
         shown = style.as_shown(self.sample, self.sample.phi_fine[4])
         np.testing.assert_array_equal(np.flatnonzero(shown.mask.all(axis=0)), [0, 35])
         self.assertTrue(beds.maps_of(self.sample))
