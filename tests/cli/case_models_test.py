@@ -48,9 +48,9 @@ class Models(CaseTest):
             self.ends(DONE, "dem", case, "--quiet", "-o", self.folder / f"{case.stem}-dem")
 
     def test_a_case_that_neither_model_runs_is_refused_for_each(self):
-        both = ["effects.contact=hertz_mindlin", "bed.solids_fraction=0.45", "bed.static_height=0.0003"]
+        both = ["effects.contact=hertz_mindlin", "bed.solids_fraction=0.45", "tfm.frictional_onset=0.5", "bed.static_height=0.0003"]
         lines = self.refused(BED, *both)
-        self.assertTrue(any("polybed tfm cannot run it: bed.solids_fraction = 0.45" in line for line in lines), lines)
+        self.assertTrue(any("polybed tfm cannot run it: solids_fraction = 0.45" in line for line in lines), lines)
         self.assertTrue(any("polybed dem cannot run it: the particles have no room" in line for line in lines), lines)
         self.assertEqual(len(lines), 2, lines)
 
