@@ -94,7 +94,8 @@ Broken shared_with_a_wide_kernel(const Scene& scene) {
 
 /// Keys that determine the initial particles.
 std::vector<std::string> start_keys(std::vector<std::string> first) {
-  for (const char* key : {"bed.", "column.", "species.", "wall.", "fluid.", "dem.", "inlet.", "jet."})
+  for (const char* key :
+       {"bed.", "column.", "species.", "wall.", "fluid.", "dem.", "inlet.", "jet.", "feed.", "discharge."})
     first.emplace_back(key);
   return first;
 }

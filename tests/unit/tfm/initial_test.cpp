@@ -100,6 +100,7 @@ std::vector<double> volumes_of(const core::Grid& grid, const std::vector<core::F
 TEST(Initial, CellsThatALayerCutsGetTheirShareByVolume) {
   core::Scene scene =
       bed_of_layers({{"", {1, 0}, 0.022, 0.6, {0}, {0.0125}}, {"", {0.25, 0.75}, 0.013, 0.5, {0}, {0.0125}}});
+  scene.tfm.frictional_onset = 0.45;  // 0.9 of the looser layer, as the reader sets it
   core::Timers timers;
   Model model(scene, timers);
   model.show(0);
