@@ -17,6 +17,7 @@
 #include "core/output/files.hpp"
 #include "core/output/json.hpp"
 #include "core/print.hpp"
+#include "relevance/drag_file.hpp"
 #include "relevance/drag_law.hpp"
 
 namespace polybed::app {
@@ -110,7 +111,7 @@ std::map<std::string, double> by_shapes(DragOptions options) {
 }
 
 /// Describes the number on standard error, so that scripts read only the number.
-void explain_point(const DragOptions& options, double f, bool outside) {
+void explain_point(const DragOptions& options, const DragLaw& law, double f, bool outside) {
   core::print(stderr,
               "f = {:.5g}: drag without buoyancy over Stokes drag 3 pi mu D u, unit 1; n = f/voidage = {:.5g}\n", f,
               f / *options.voidage);
@@ -122,10 +123,16 @@ void explain_point(const DragOptions& options, double f, bool outside) {
       if (shape != options.shape) core::print(stderr, "; by {} f = {:.5g}", shape, of_it);
     core::print(stderr, "\n");
   }
-  core::print(stderr, "range: {}\n",
-              !outside        ? "within"
-              : options.guard ? "outside the range of the law; its extension (guard) answered"
-                              : "outside the range of the law; the bare formula answered");
+  const std::string fitted = relevance::fitted_range(law);
+  if (!fitted.empty() && !law.fitted_to)
+    core::print(stderr, "range: unknown; the law file does not contain the range of its rows\n");
+  else if (!fitted.empty())
+    core::print(stderr, "range: {} of the fit, {}\n", outside ? "outside the rows" : "within the rows", fitted);
+  else
+    core::print(stderr, "range: {}\n",
+                !outside        ? "within"
+                : options.guard ? "outside the range of the law; its extension (guard) answered"
+                                : "outside the range of the law; the bare formula answered");
   if (const auto laws = laws_at(*options.voidage, *options.reynolds); laws.size() > 1)
     core::print(stderr, "band: {:.4g} ({}) to {:.4g} ({}), the {} laws of one size whose range has this point\n",
                 laws.front().first, laws.front().second, laws.back().first, laws.back().second, laws.size());
@@ -143,7 +150,7 @@ void print_point(const DragOptions& options, const DragLaw& law) {
     return core::print("{}\n", core::json_text(json));
   }
   core::print("{}\n", f);
-  explain_point(options, f, count.guarded > 0);
+  explain_point(options, law, f, count.guarded > 0);
 }
 
 std::vector<std::string> split(const std::string& line) {

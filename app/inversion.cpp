@@ -16,6 +16,7 @@
 #include "multiscale/card/velocity_text.hpp"
 #include "multiscale/roles.hpp"
 #include "multiscale/scene_rules.hpp"
+#include "relevance/drag_file.hpp"
 #include "relevance/drag_law.hpp"
 #include "relevance/effects/drag.hpp"
 
@@ -67,7 +68,8 @@ core::Json json_of(const std::vector<InversionPoint>& points) {
 }
 
 void print_json(const core::Scene& scene, const std::string& method, const std::vector<InversionPoint>& points,
-                const std::vector<Band>& band, const InversionBeside& beside, std::optional<std::size_t> on_top) {
+                const std::vector<Band>& band, const InversionBeside& beside, std::optional<std::size_t> on_top,
+                std::optional<bool> outside) {
   core::Json json = {{"law", scene.drag().name},
                      {"partition", core::text_or_null(scene.partition().given ? scene.partition().name : "")},
                      {"velocity_m_s", nullptr},
@@ -76,6 +78,7 @@ void print_json(const core::Scene& scene, const std::string& method, const std::
   json["on_top"] = nullptr;
   if (on_top) json["on_top"] = {{"below", scene.species[*on_top].name}, {"above", scene.species[1 - *on_top].name}};
   json["roots"] = json_of(points);
+  json["outside_range"] = outside ? core::Json(*outside) : core::Json();
   json["method"] = method;
   core::Json& bands = json["bands"] = core::Json::array();
   for (const Band& b : band) bands.push_back({{"input", b.input}, {"low_m_s", b.low}, {"high_m_s", b.high}});
@@ -313,7 +316,10 @@ void run_without_a_run(const InversionOptions& options) {
   };
   if (options.json)
     return print_json(scene, options.method, points, band, beside,
-                      points.empty() ? std::nullopt : top_below(points.back()));
+                      points.empty() ? std::nullopt : top_below(points.back()),
+                      points.empty() || relevance::fitted_range(law) == "unknown"
+                          ? std::nullopt
+                          : std::optional(!range_at(law, binary_bed(scene), points.back()).within));
   if (points.empty())
     core::print("no inversion point between voidage 0.2 and 1 by {} with {}\n{}", options.method, name,
                 line_without_point(scene, law));
@@ -324,6 +330,7 @@ void run_without_a_run(const InversionOptions& options) {
     if (const auto top = top_below(p))
       core::print("  at lower velocities {} is on top, at higher ones {}\n", scene.species[*top].name,
                   scene.species[1 - *top].name);
+    core::print("{}", range_warning(law, binary_bed(scene), p));
   }
   if (law.partition && !points.empty()) print_deviation(binary_bed(scene), law, points.back());
   for (const Band& b : band) core::print("  {}: {:.2f} to {:.2f} mm/s\n", b.input, 1e3 * b.low, 1e3 * b.high);

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "relevance/advised_drag.hpp"
+#include "relevance/drag_file.hpp"
 #include "relevance/drag_law.hpp"
 
 namespace polybed::app {
@@ -101,12 +102,26 @@ bool suits_point(const std::string& name, const closures::DragLaw& law, const Bi
   if (std::find(of_beds.begin(), of_beds.end(), name) != of_beds.end()) return true;
   const bool crowded = relevance::unsuited(name, kind).empty() || relevance::unsuited(name, DragScene::fixed).empty();
   if (relevance::serves_comparison(name) || !crowded) return false;
+  return range_at(law, bed, point).within;
+}
+
+RangeAt range_at(const closures::DragLaw& law, const BinaryBed& bed, const InversionPoint& point) {
   closures::GuardCount count;
   double f = 0, slope = 0;
   const double diameter = closures::sauter_diameter(bed.share, bed.diameter),
                reynolds = bed.fluid.density * point.velocity * diameter / bed.fluid.viscosity;
   closures::drag_of_points(law, {&point.voidage, 1}, {&reynolds, 1}, {&f, 1}, {&slope, 1}, count);
-  return count.guarded == 0;
+  return {count.guarded == 0, reynolds};
+}
+
+std::string range_warning(const closures::DragLaw& law, const BinaryBed& bed, const InversionPoint& point) {
+  const std::string fitted = relevance::fitted_range(law);
+  const RangeAt at = range_at(law, bed, point);
+  if (!fitted.empty() && !law.fitted_to)
+    return "  range unknown: the law file does not contain the range of its rows\n";
+  if (at.within) return "";
+  return fmt::format("  outside the range of the law{}: voidage {:.3g}, Re {:.3g} of the Sauter diameter\n",
+                     fitted.empty() ? "" : ", " + fitted, point.voidage, at.reynolds);
 }
 
 std::string line_without_point(const core::Scene& scene, const closures::DragLaw& law) {

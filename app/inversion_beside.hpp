@@ -35,6 +35,18 @@ struct InversionBeside {
 [[nodiscard]] bool suits_point(const std::string& name, const closures::DragLaw& law, const multiscale::BinaryBed& bed,
                                const multiscale::InversionPoint& point);
 
+/// Whether a point is within the range of a law, and its Reynolds number.
+struct RangeAt {
+  bool within;
+  double reynolds;  ///< of the Sauter diameter and the superficial velocity
+};
+[[nodiscard]] RangeAt range_at(const closures::DragLaw& law, const multiscale::BinaryBed& bed,
+                               const multiscale::InversionPoint& point);
+
+/// A line for a point outside the range of its law, or of a law file without a range; otherwise empty.
+[[nodiscard]] std::string range_warning(const closures::DragLaw& law, const multiscale::BinaryBed& bed,
+                                        const multiscale::InversionPoint& point);
+
 /// Which species is below at all velocities, for a law without an inversion point; empty if that is not known.
 [[nodiscard]] std::string line_without_point(const core::Scene& scene, const closures::DragLaw& law);
 

@@ -215,6 +215,30 @@ struct Kernels<Law> {
   static constexpr auto particles = evaluate_particles_in_media<Law>;
 };
 
+/// Counts evaluations of a law by the rows it was fitted to, if these are known, otherwise by the range of its form.
+class Counting {
+ public:
+  Counting(const DragLaw& law, GuardCount& count) : rows_(law.fitted_to), count_(count) {}
+
+  /// The count for evaluations of the form.
+  [[nodiscard]] GuardCount& of_form() { return rows_ ? unused_ : count_; }
+
+  /// Adds evaluations at voidages and Re = per_viscosity slip/per_length.
+  void add(std::span<const double> voidage, const double* slip, double per_viscosity, const double* per_length) {
+    if (!rows_) return;
+    count_.evaluations += voidage.size();
+    for (std::size_t n = 0; n < voidage.size(); ++n) {
+      const double reynolds = per_viscosity * slip[n] / (per_length == nullptr ? 1 : per_length[n]);
+      count_.guarded += rows_->contains(voidage[n], reynolds) ? 0 : 1;
+    }
+  }
+
+ private:
+  const std::optional<FittedRange>& rows_;
+  GuardCount& count_;
+  GuardCount unused_;
+};
+
 /// Scales f by the factors of a modified law: see DragLaw. \param y  in each row
 void move(const DragLaw& law, std::span<const double> y, double* f) {
   for (std::size_t n = 0; n < y.size(); ++n) f[n] *= law.moved(y[n]);
@@ -248,12 +272,14 @@ void take_mean(const DragLaw& law, const Own& own, std::span<const double> voida
 
 void drag_of_points(const DragLaw& law, std::span<const double> voidage, std::span<const double> reynolds,
                     std::span<double> f, std::span<double> re_dfdre, GuardCount& count) {
+  Counting counting(law, count);
   std::visit(
       [&](const auto& l) {
         core::in_vectors<evaluate<decltype(l.base)>>(l.base, voidage.size(), voidage.data(), reynolds.data(), f.data(),
-                                                     re_dfdre.data(), count);
+                                                     re_dfdre.data(), counting.of_form());
       },
       law.law);
+  counting.add(voidage, reynolds.data(), 1, nullptr);
   for (std::size_t n = 0; n < f.size() && law.is_moved(); ++n) {
     f[n] *= law.common;
     re_dfdre[n] *= law.common;
@@ -269,6 +295,7 @@ void drag_of_cells(const DragLaw& law, std::span<const double> voidage, std::spa
                    std::span<const double* const> slip, std::span<const double> diameter, double fluid_density,
                    double viscosity, std::span<double* const> f, GuardCount& count) {
   const double per_viscosity = fluid_density / viscosity;
+  Counting counting(law, count);
   visit_sharing(law, [&](const auto& l) {
     using Law = std::remove_cvref_t<decltype(l)>;
     BlockFor<Law> block;
@@ -279,11 +306,12 @@ void drag_of_cells(const DragLaw& law, std::span<const double> voidage, std::spa
       core::in_vectors<Kernels<Law>::compose>(l, block, begin, voidage, share, diameter);
       for (std::size_t j = 0; j < diameter.size(); ++j) {
         core::in_vectors<Kernels<Law>::species>(l, block, share[j] + begin, slip[j] + begin, diameter[j], per_viscosity,
-                                                f[j] + begin, law.partition ? of_partition : count);
+                                                f[j] + begin, law.partition ? of_partition : counting.of_form());
+        counting.add(voidage.subspan(begin, block.cells), slip[j] + begin, per_viscosity, block.per_mean.data());
         if (law.partition) {
           for (std::size_t c = 0; c < block.cells; ++c)
             reynolds[c] = per_viscosity * slip[j][begin + c] / block.per_mean[c];
-          take_mean(law, l.base, voidage.subspan(begin, block.cells), reynolds, f[j] + begin, count);
+          take_mean(law, l.base, voidage.subspan(begin, block.cells), reynolds, f[j] + begin, counting.of_form());
         }
         if (law.shape)
           shape(law.shape->species[j], voidage.subspan(begin, block.cells), slip[j] + begin,
@@ -307,6 +335,7 @@ void drag_of_particles(const DragLaw& law, std::span<const double> voidage, std:
                        std::span<const double> share, std::span<const double> diameter, std::span<const double> slip,
                        double fluid_density, double viscosity, std::span<double> f, GuardCount& count) {
   const double per_viscosity = fluid_density / viscosity;
+  Counting counting(law, count);
   visit_sharing(law, [&](const auto& l) {
     using Law = std::remove_cvref_t<decltype(l)>;
     BlockFor<Law> block;
@@ -318,10 +347,11 @@ void drag_of_particles(const DragLaw& law, std::span<const double> voidage, std:
       const ParticleRows in{&voidage[begin], &per_mean[begin], &average[begin], square,
                             &share[begin],   &diameter[begin], &slip[begin]};
       core::in_vectors<Kernels<Law>::particles>(l, block, in, largest, per_viscosity, &f[begin],
-                                                law.partition ? of_partition : count);
+                                                law.partition ? of_partition : counting.of_form());
+      counting.add(voidage.subspan(begin, block.cells), in.slip, per_viscosity, in.per_mean);
       if (law.partition) {
         for (std::size_t c = 0; c < block.cells; ++c) reynolds[c] = per_viscosity * in.slip[c] / in.per_mean[c];
-        take_mean(law, l.base, voidage.subspan(begin, block.cells), reynolds, &f[begin], count);
+        take_mean(law, l.base, voidage.subspan(begin, block.cells), reynolds, &f[begin], counting.of_form());
       }
       if (!law.is_moved()) continue;
       for (std::size_t c = 0; c < block.cells; ++c) y[c] = in.diameter[c] * in.per_mean[c];

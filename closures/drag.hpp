@@ -37,6 +37,17 @@ using MixtureLaw =
 using Partition = std::variant<CelloShares<DragStokes>, VbkTheoryShares<DragStokes>, VbkCorrectedShares<DragStokes>,
                                MixtureYinSundaresan, MixtureBrinkmanOseen>;
 
+/// The least and the greatest voidage and Reynolds number of the rows that a law was fitted to; Re is of the Sauter
+/// diameter and the superficial slip velocity.
+struct FittedRange {
+  double least_voidage, most_voidage, least_reynolds, most_reynolds;
+
+  [[nodiscard]] bool contains(double voidage, double reynolds) const {
+    return voidage >= least_voidage && voidage <= most_voidage && reynolds >= least_reynolds &&
+           reynolds <= most_reynolds;
+  }
+};
+
 /// A mixture law, or its base law as the mean of a partition.
 struct DragLaw {
   MixtureLaw law;
@@ -47,6 +58,8 @@ struct DragLaw {
   /// The factors of non-spherical particles, on f_j of each species and on the base law of one size; none: all
   /// are spheres.
   std::optional<BedShape> shape = {};
+  /// Replaces the range of the form in the count of evaluations outside the range.
+  std::optional<FittedRange> fitted_to = {};
 
   [[nodiscard]] bool is_moved() const { return common != 1 || tilt != 0; }
   /// The factor of a species; above 0 for any y_j.
@@ -83,7 +96,8 @@ struct DragLawInfo {
 /// Help and source describe how it distributes; obeys_sum_rule: with any mean law.
 [[nodiscard]] std::vector<DragLawInfo> partitions();
 
-/// The base law at points: f and Re df/dRe for one size. All spans have one length; guard calls are added to `count`.
+/// The base law at points: f and Re df/dRe for one size. All spans have one length; evaluations, and those outside the
+/// range, are added to `count`.
 void drag_of_points(const DragLaw& law, std::span<const double> voidage, std::span<const double> reynolds,
                     std::span<double> f, std::span<double> re_dfdre, GuardCount& count);
 

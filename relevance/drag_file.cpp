@@ -7,6 +7,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numeric>
+#include <tuple>
 
 #include "core/case/file.hpp"
 #include "core/case/keys.hpp"
@@ -20,8 +21,8 @@ namespace {
 
 constexpr std::string_view prefix = "file:", filetype = "polybed drag law";
 constexpr std::size_t longest_law_file = 10'000'000;
-constexpr std::array known_keys{"filetype", "version", "form", "constants",       "law",        "common",
-                                "tilt",     "band",    "fit",  "partition_bands", "git_commit", "created"};
+constexpr std::array known_keys{"filetype", "version", "form", "constants",       "law",        "common", "tilt",
+                                "range",    "band",    "fit",  "partition_bands", "git_commit", "created"};
 
 /// Reads a law file and collects its problems, each with its line and column.
 class DragFileReader {
@@ -38,6 +39,7 @@ class DragFileReader {
     read_law(file);
     file.common = factor("common", 1, 0.1, 10);
     file.tilt = factor("tilt", 0, -0.5, 0.5);
+    if (json_.contains("range")) read_range(file.range.emplace());
     finish();
     check_usable(file);
     finish();
@@ -141,6 +143,25 @@ class DragFileReader {
     return standard;
   }
 
+  void read_range(closures::FittedRange& range) {
+    const core::Json& given = json_["range"];
+    if (!given.is_object() || given.size() != 2 || !given.contains("voidage") || !given.contains("reynolds"))
+      return wrong("range", R"(range: expected {"voidage": [LEAST, MOST], "reynolds": [LEAST, MOST]})");
+    std::tie(range.least_voidage, range.most_voidage) = interval("voidage", 1);
+    std::tie(range.least_reynolds, range.most_reynolds) = interval("reynolds", HUGE_VAL);
+  }
+
+  /// Two numbers in order, of a key of the range. \param most  allowed
+  std::pair<double, double> interval(const char* key, double most) {
+    const core::Json& value = json_["range"][key];
+    const bool numbers = value.is_array() && value.size() == 2 && value[0].is_number() && value[1].is_number();
+    const auto [from, to] = numbers ? std::pair(value[0].get<double>(), value[1].get<double>()) : std::pair(1.0, 0.0);
+    if (!(from >= 0 && from <= to && to <= most))
+      wrong(key, fmt::format("range.{} = {}: expected two numbers in order, from 0{}", key, value.dump(),
+                             std::isfinite(most) ? fmt::format(" to {:g}", most) : ""));
+    return {from, to};
+  }
+
   void check_usable(const DragFile& file) {
     if (file.form.empty()) return;
     if (const auto at = closures::unusable_at(law_of_file(file, closures::Guard::on)))
@@ -165,7 +186,10 @@ std::string record_of(const std::filesystem::path& path, const DragFile& file) {
     law["law"] = file.law;
   else
     law.update({{"form", file.form}, {"constants", file.constants}});
-  law.update({{"common", file.common}, {"tilt", file.tilt}});
+  law.update({{"common", file.common}, {"tilt", file.tilt}, {"range", nullptr}});
+  if (const auto& range = file.range)
+    law["range"] = {{"voidage", {range->least_voidage, range->most_voidage}},
+                    {"reynolds", {range->least_reynolds, range->most_reynolds}}};
   return core::json_text(law);
 }
 
@@ -174,7 +198,17 @@ closures::DragLaw law_of_file(const DragFile& file, closures::Guard guard) {
                                             : closures::fitted_drag_law(file.form, file.constants, guard);
   law.common = file.common;
   law.tilt = file.tilt;
+  law.fitted_to = file.range;
   return law;
+}
+
+std::string fitted_range(const closures::DragLaw& law) {
+  if (const auto& range = law.fitted_to)
+    return fmt::format("voidage {:.4g} to {:.4g}, Re {:.4g} to {:.4g}", range->least_voidage, range->most_voidage,
+                       range->least_reynolds, range->most_reynolds);
+  const bool fitted = std::holds_alternative<closures::MixtureFittedCello>(law.law) ||
+                      std::holds_alternative<closures::MixtureFittedBrinkmanOseen>(law.law);
+  return fitted ? "unknown" : "";
 }
 
 std::optional<std::string> drag_file(const std::string& law) {

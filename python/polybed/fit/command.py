@@ -25,7 +25,7 @@ FORM_OFF = 1e-9  # of the force, between this package and the program: rounding
 def parser():
     options = parser_of("fit", "Fits the constants of a drag law to rows of resolved flow, and writes a law file.", "--quiet", "--json", "--no-picture")
     options.add_argument("rows", nargs="+", metavar="ROWS", type=Path,
-                         help="tables of polybed resolve or of tests/data/lbm; of a folder its tab_A_*.csv")
+                         help="tables of polybed resolve or of tests/data/lbm; of a folder its tab_A_*.csv or rows.csv")
     options.add_argument("--form", choices=("cello", "brinkman_oseen"), default="brinkman_oseen")
     options.add_argument("-o", "--output", metavar="DIR", type=Path, help="folder; default runs/<name of the rows>-fit")
     options.add_argument("--bootstrap", type=whole(0, 10000), default=100, metavar="N", help="draws for the intervals (default: 100)")
@@ -53,6 +53,12 @@ def band_of_draws(problem, drawn):
 
 def law_file(form, constants, **members):
     return {"filetype": "polybed drag law", "version": 1, "form": form, "constants": constants} | members
+
+
+def range_of(points):
+    """Of voidage and Reynolds number in the rows: what the program takes as the range of the law."""
+    return {name: [float(min(values)), float(max(values))]
+            for name, values in (("voidage", [p.voidage for p in points]), ("reynolds", [p.reynolds for p in points]))}
 
 
 def partition_bands(points, law):
@@ -124,7 +130,7 @@ def fit(given, folder):
               "from_constants": band_of_draws(problem, drawn), "guard_answers_by": float(off),
               "constraints": {"greatest_violation": broken, "sum_rule": sum_rule(points, nets)}}
     bands = partition_bands(points, f"file:{folder / 'law.json'}")
-    write_law(folder / "law.json", law_file(given.form, constants, band=band, partition_bands=bands, fit=about))
+    write_law(folder / "law.json", law_file(given.form, constants, range=range_of(points), band=band, partition_bands=bands, fit=about))
     (folder / "accuracy.md").write_text(page(record), encoding="utf-8")
     write_errors(folder / "errors.csv", points, arrays)
     return record

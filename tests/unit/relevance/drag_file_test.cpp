@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <fstream>
 
 #include "core/error.hpp"
@@ -90,6 +91,44 @@ TEST_F(LawFile, RecordHasHashAndConstants) {
   EXPECT_THAT(record, HasSubstr("\"hash\":\"" + read_drag_file(path_).hash));
 }
 
+/// Evaluations outside the range at one point, in a cell and on a particle of 1 mm in liquid of 1000 kg/m3 and 1 mPa s.
+std::array<std::uint64_t, 3> outside_of(const closures::DragLaw& law, double voidage, double reynolds) {
+  std::array<closures::GuardCount, 3> counts;
+  double f = 0, slope = 0;
+  const double one = 1, diameter = 1e-3, per = 1e3, per_square = 1e6, slip = 1e-3 * reynolds;
+  closures::drag_of_points(law, {&voidage, 1}, {&reynolds, 1}, {&f, 1}, {&slope, 1}, counts[0]);
+  const double *shares[] = {&one}, *slips[] = {&slip};
+  double* fs[] = {&f};
+  closures::drag_of_cells(law, {&voidage, 1}, shares, slips, {&diameter, 1}, 1e3, 1e-3, fs, counts[1]);
+  closures::drag_of_particles(law, {&voidage, 1}, {&per, 1}, {&diameter, 1}, {&per_square, 1}, diameter, {&one, 1},
+                              {&diameter, 1}, {&slip, 1}, 1e3, 1e-3, {&f, 1}, counts[2]);
+  for (const closures::GuardCount& count : counts) EXPECT_EQ(count.evaluations, 1);
+  return {counts[0].guarded, counts[1].guarded, counts[2].guarded};
+}
+
+TEST_F(LawFile, RangeOfTheRowsCounts) {
+  using Counts = std::array<std::uint64_t, 3>;
+  const std::string range = ", \"range\": {\"voidage\": [0.6, 0.8], \"reynolds\": [0, 5]}}";
+  for (const std::string form : {"cello", "brinkman_oseen"}) {
+    write(published(form));
+    const closures::DragLaw unknown = drag_law_named(name());
+    EXPECT_EQ(fitted_range(unknown), "unknown");
+    EXPECT_EQ(outside_of(unknown, 0.7, 100), (Counts{0, 0, 0})) << "within the form";
+    write(changed(published(form), "}}", "}" + range));
+    for (const char* partition : {"none", "vbk_theory"}) {
+      const closures::DragLaw law = drag_law_named(name(), partition);
+      EXPECT_EQ(fitted_range(law), "voidage 0.6 to 0.8, Re 0 to 5");
+      EXPECT_EQ(outside_of(law, 0.7, 4), (Counts{0, 0, 0})) << form << partition;
+      EXPECT_EQ(outside_of(law, 0.7, 6), (Counts{1, 1, 1})) << form << partition;
+      EXPECT_EQ(outside_of(law, 0.5, 4), (Counts{1, 1, 1})) << form << partition;
+      EXPECT_EQ(outside_of(law, 0.9, 4), (Counts{1, 1, 1})) << form << partition;
+      EXPECT_EQ(closures::pure_drag_at(law, 0.9, 500), closures::pure_drag_at(unknown, 0.9, 500));
+    }
+  }
+  EXPECT_THAT(record_of(path_, read_drag_file(path_)), HasSubstr("\"range\":{\"reynolds\":[0.0,5.0]"));
+  EXPECT_EQ(fitted_range(drag_law_named("cello")), "");
+}
+
 TEST_F(LawFile, SaysWhatIsWrongAndWhere) {
   const std::string good = published("cello");
   EXPECT_EQ(said_of(good), "nothing");
@@ -108,6 +147,12 @@ TEST_F(LawFile, SaysWhatIsWrongAndWhere) {
   EXPECT_THAT(said_of(head() + "\"law\": \"wen_yu\",\n\"tilt\": 3}"), HasSubstr(":3:1: tilt = 3"));
   EXPECT_THAT(said_of(head() + "\"law\": \"wen_you\"}"), HasSubstr("did you mean 'wen_yu'?"));
   EXPECT_THAT(said_of(head() + "\"tilt\": 0}"), HasSubstr("either \"form\""));
+  EXPECT_THAT(said_of(head() + "\"law\": \"wen_yu\",\n\"range\": {\"voidage\": [0.4, 0.9]}}"),
+              HasSubstr(":3:1: range: exp"));
+  for (const char* voidage : {"[0.9, 0.4]", "[0.4, 2]", "[-1, 0.4]", "[0.4]", "0.4", "[0.4, \"b\"]"})
+    EXPECT_THAT(
+        said_of(head() + "\"law\": \"wen_yu\",\n\"range\": {\"reynolds\": [0, 5], \"voidage\": " + voidage + "}}"),
+        HasSubstr("range.voidage = "));
   EXPECT_THAT(said_of(changed(good, "\"k3_voidage\": 410", "\"k3_voidage\": 2050")),
               HasSubstr("falls there as the velocity rises"));
 }
