@@ -224,6 +224,8 @@ double number_in(const std::string& cell, const std::string& where) {
 /// them.
 std::vector<std::string> asked_in(std::vector<std::string> columns, const std::string& where) {
   columns.erase(std::find(columns.begin(), columns.end(), "n_1"), columns.end());
+  if (std::find(columns.begin(), columns.end(), "u_1") != columns.end())
+    throw core::CaseError(where + "rows of free spheres have a slip u_j for each species, no force at a given slip");
   bool fits = columns.size() >= 2 && columns.size() % 2 == 0 && columns[0] == "eps" && columns[1] == "Re";
   for (std::size_t j = 1; fits && 2 * j < columns.size(); ++j)
     fits = columns[2 * j] == fmt::format("x{}", j) && columns[2 * j + 1] == fmt::format("D{}", j);

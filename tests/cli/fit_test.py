@@ -82,6 +82,31 @@ class Fit(Fitted):
         clean = self.ends(DONE, "fit", *ONE_SIZE, "-o", self.folder / "good", "--quiet", "--no-picture", "--bootstrap", "2").stderr
         self.assertNotIn("warning", clean)
 
+    def test_the_range_of_the_rows_is_the_range_of_the_law(self):
+        (self.folder / "rows.csv").write_text("eps,Re,n\n0.6,0,24\n0.7,0,14\n0.8,0,8\n0.6,2,25\n0.6,5,26\n0.7,2,14.5\n0.7,5,15\n0.8,5,9\n")
+        self.ends(DONE, "fit", self.folder, "-o", self.folder / "fit", "--quiet", "--no-picture", "--bootstrap", "0")  # its rows.csv
+        path = self.folder / "fit/law.json"
+        content = strict_json(path.read_text())
+        self.assertEqual(content["range"], {"voidage": [0.6, 0.8], "reynolds": [0, 5]})
+        law = f"file:{path}"
+
+        def point(re):
+            return self.ends(DONE, "drag", "--law", law, "--voidage", "0.8", "--re", re).stderr
+        self.assertIn("range: within the rows of the fit, voidage 0.6 to 0.8, Re 0 to 5\n", point("5"))
+        self.assertIn("range: outside the rows of the fit, voidage 0.6 to 0.8, Re 0 to 5\n", point("500"))
+        self.assertIn("outside the range of the law, voidage 0.6 to 0.8, Re 0 to 5: voidage ", self.ends(DONE, "inversion", SYSTEM_B, "--law", law).stdout)
+        self.assertIs(strict_json(self.ends(DONE, "inversion", SYSTEM_B, "--law", law, "--json").stdout)["outside_range"], True)
+        words = ["tfm", CASE, *SMALL, "--until", "0.01 s", "--set", f'effects.drag="{law}"', "-o", self.folder / "run"]
+        self.assertRegex(self.ends(DONE, *words).stderr, r"drag file:.*: \d+(\.\d+)? % of .* evaluations outside its range")
+        [used] = [use for use in strict_json((self.folder / "run/run.json").read_text())["guards"] if use["closure"].startswith("drag ")]
+        self.assertGreater(used["outside_range"], 0)
+        del content["range"]  # as in older files
+        path.write_text(json.dumps(content))
+        self.assertIn("range: unknown", point("5"))
+        self.assertIn("range unknown", self.ends(DONE, "inversion", SYSTEM_B, "--law", law).stdout)
+        self.assertIsNone(strict_json(self.ends(DONE, "inversion", SYSTEM_B, "--law", law, "--json").stdout)["outside_range"])
+        self.assertIs(strict_json(self.ends(DONE, "inversion", SYSTEM_B, "--json").stdout)["outside_range"], False)
+
     def test_the_package_and_the_program_have_one_formula(self):
         points = rows.read_points([DATA])
         for form, published in json.loads(self.ends(DONE, "list", "--json").stdout)["drag_forms"].items():
@@ -114,10 +139,13 @@ class Fit(Fitted):
         bad = self.folder / "bad.csv"
         for text, what in (("eps,Re,n\n0.5,1,2\n0.5,one,2\n", "bad.csv:3: Re (cell 2) = 'one' is no number"),
                            ("eps,Re,n\n1.5,1,2\n", "bad.csv:2: eps = 1.5"), ("a,b\n1,2\n", "bad.csv:1: unknown columns"),
+                           ("eps,Re,x1,D1,u_1,u_1_se\n0.5,1,1,1,2,1\n", "bad.csv:1: rows of free spheres have a slip u_j"),
                            ("eps,Re,n\n0.5,1\n", "bad.csv:2: 2 cells"), ("# nothing\n", "no header"),
                            ("eps,Re,n\n0.5,1,-3\n", "not above 0"), ("eps,Re,n\n0.5,1,3\n", "cannot determine")):
             bad.write_text(text)
             self.assertIn(what, self.ends(WRONG_CASE, "fit", bad, "-o", self.folder / "out", "--quiet").stderr)
+            if "u_1" in text:
+                self.assertIn("rows of free spheres", self.ends(WRONG_CASE, "drag", "--csv", bad).stderr)
         self.ends(FILE, "fit", self.folder / "none.csv", "-o", self.folder / "out")
         self.fit(DATA / "tab_A_v.csv")
         again = self.ends(WRONG_CASE, "fit", DATA / "tab_A_v.csv", "-o", self.folder / "fit", "--quiet")

@@ -131,6 +131,9 @@ def row_for_each_size(rows):
 
 def points_of_file(path):
     columns, rows = rows_of(path)
+    if {"x1", "u_1"} <= columns:
+        raise StudyError(WRONG_CASE, f"{path}:1: rows of free spheres have a slip u_j of each species at its weight, not the forces n_j at one "
+                                     'slip, and cannot be fitted: run polybed resolve with resolve.motion = "held"')
     if {"eps", "Re"} <= columns and "D1" not in columns and columns & set(FORCES):
         return list(map(one_size, rows))
     if {"eps", "Re", "x1", "D1", "n_1"} <= columns:
@@ -144,10 +147,11 @@ def points_of_file(path):
 
 
 def read_points(paths):
-    """The points of files, each once. A folder stands for its tables tab_A_*.csv."""
-    files = [file for path in paths for file in (sorted(Path(path).glob("tab_A_*.csv")) if Path(path).is_dir() else [Path(path)])]
+    """The points of files, each once. A folder stands for its tables tab_A_*.csv, or for its rows.csv."""
+    files = [file for path in map(Path, paths)
+             for file in (sorted(path.glob("tab_A_*.csv")) or sorted(path.glob("rows.csv")) if path.is_dir() else [path])]
     if not files:
-        raise StudyError(FILE, f"{', '.join(map(str, paths))}: no tables tab_A_*.csv there")
+        raise StudyError(FILE, f"{', '.join(map(str, paths))}: no tables tab_A_*.csv and no rows.csv there")
     points, seen = [], set()
     for file in files:
         for found in points_of_file(file):
