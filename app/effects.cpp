@@ -251,7 +251,11 @@ std::string whole_table(const core::Scene& scene, const relevance::Choice& choic
 /// The lines for the case with their reasons, the neglected effects, and the effects that the case has or should have,
 /// with a mark for changes: at most 100 columns wide, one screen.
 /// \param details  every effect with its reason instead
-std::string effects_table(const core::Scene& scene, const relevance::Choice& choice, bool details) {
+std::string effects_table(const core::Scene& scene, relevance::Choice choice, bool details) {
+  for (const std::string& model : models_of(scene))
+    for (const std::string& role : to_try(left_out(scene, model)))  // alone within the tolerance, but not in the sum
+      for (relevance::EffectRow& row : choice.rows)
+        if (row.effect == role && case_text(scene, row) == off) row.state = State::undecided;
   return lines_for_case(scene, choice) + "\n" + sums_text(scene, choice) + "\n" +
          fmt::format("  {:20} {:15} {:15} {:>15} {:>11}  {}\n", "effect", "this case", "recommended", "value",
                      "matters if", "acts in") +

@@ -71,6 +71,21 @@ std::string largest_of(std::vector<LeftOutEffect> effects) {
   return text;
 }
 
+enum class Remedy { none, add, no_law, not_built, try_it };
+
+/// The remedy for a neglected effect that is significant in a sum beyond the tolerance.
+Remedy remedy_of(const LeftOut& left_out, const LeftOutEffect& one) {
+  constexpr double little = 0.1;  // of the tolerance: negligible in the sum
+  const bool counts = one.row.summed || one.row.share_off;
+  if (!(left_out.sum > left_out.promise) || !counts || !(one.bound.value_or(0) > little * left_out.promise))
+    return Remedy::none;
+  const bool open = one.row.band && one.row.band->most == *one.bound && one.row.band->least <= left_out.promise;
+  if (is_among(left_out.called_for, one.row.effect)) return Remedy::add;
+  if (one.row.models.find(left_out.model) == std::string::npos) return Remedy::no_law;
+  if (!one.row.not_built.empty()) return Remedy::not_built;
+  return open ? Remedy::try_it : Remedy::none;
+}
+
 std::string sum_text(const LeftOut& left_out) {
   const std::map<std::string, std::string> names{{"tfm", "two-fluid model"}, {"dem", "particle model"}};
   std::string text = fmt::format("left out of the {}: forces of {} of the weight (promise {:.2g}{})",
@@ -113,33 +128,30 @@ std::vector<std::string> remedies(const LeftOut& left_out) {
   std::vector<LeftOutEffect> effects = left_out.effects;
   std::stable_sort(effects.begin(), effects.end(),
                    [](const auto& a, const auto& b) { return a.bound.value_or(0) > b.bound.value_or(0); });
-  std::vector<std::string> add, no_law, undecided, not_built;
-  constexpr double little = 0.1;  // of the tolerance: negligible in the sum
+  std::map<Remedy, std::vector<std::string>> by_remedy;
   for (const LeftOutEffect& one : effects) {
-    const bool counts = one.row.summed || one.row.share_off;
-    if (!counts || !(one.bound.value_or(0) > little * left_out.promise)) continue;
-    const bool open = one.row.band && one.row.band->most == *one.bound && one.row.band->least <= left_out.promise;
-    const bool has_law = one.row.models.find(left_out.model) != std::string::npos;
-    if (is_among(left_out.called_for, one.row.effect))
-      add.push_back(with_share(one));
-    else if (!has_law)
-      no_law.push_back(with_share(one));
-    else if (!one.row.not_built.empty())
-      not_built.push_back(with_share(one) + " (" + one.row.not_built + ")");
-    else if (open)
-      undecided.push_back(with_share(one));
+    const Remedy remedy = remedy_of(left_out, one);
+    by_remedy[remedy].push_back(with_share(one) + (remedy == Remedy::not_built ? " (" + one.row.not_built + ")" : ""));
   }
   std::vector<std::string> lines;
-  const auto tell = [&](const std::string& front, const std::vector<std::string>& named) {
-    if (!named.empty()) lines.push_back(front + fmt::format("{}", fmt::join(named, ", ")));
+  const auto tell = [&](const std::string& front, Remedy remedy) {
+    if (const auto& named = by_remedy[remedy]; !named.empty())
+      lines.push_back(front + fmt::format("{}", fmt::join(named, ", ")));
   };
-  tell("switch on ", add);
+  tell("switch on ", Remedy::add);
   const std::map<std::string, std::string> without{{"tfm", "no law in the two-fluid model, but in polybed dem: "},
                                                    {"dem", "no law in the particle model: "}};
-  tell(without.at(left_out.model), no_law);
-  tell("a run cannot have ", not_built);
-  tell("undecided, try with and without: ", undecided);
+  tell(without.at(left_out.model), Remedy::no_law);
+  tell("a run cannot have ", Remedy::not_built);
+  tell("undecided, try with and without: ", Remedy::try_it);
   return lines;
+}
+
+std::vector<std::string> to_try(const LeftOut& left_out) {
+  std::vector<std::string> roles;
+  for (const LeftOutEffect& one : left_out.effects)
+    if (remedy_of(left_out, one) == Remedy::try_it) roles.push_back(one.row.effect);
+  return roles;
 }
 
 void write_left_out(core::Json& json, const LeftOut& left_out) {

@@ -47,6 +47,9 @@ void write_left_out(core::Json& json, const LeftOut& left_out);
 /// this model, undecided ones, and those that a run cannot include. Empty if the sum is within the tolerance.
 [[nodiscard]] std::vector<std::string> remedies(const LeftOut& left_out);
 
+/// The roles that remedies() calls undecided.
+[[nodiscard]] std::vector<std::string> to_try(const LeftOut& left_out);
+
 /// A line with the effects that the scene needs and the case has off, or a drag law that must be wrong; empty without.
 [[nodiscard]] std::string called_for_line(const LeftOut& left_out);
 

@@ -136,6 +136,15 @@ class Table(Scratch):
         self.assertNotRegex(text, r"off, and not needed:[^:]*history")
         self.assertIn('# history = "basset"', text)
 
+    def test_an_effect_that_the_sum_leaves_open_is_offered(self):
+        """Lift alone is within the tolerance, but not with what tfm has no law for."""
+        text = self.ends(DONE, "effects", ROOT / "cases/templates/gas-bed/case.toml").stdout
+        self.assertIn("tfm: undecided, try with and without: lift", text)
+        self.assertTrue(text.startswith("lines for [effects]"), text)
+        self.assertRegex(text, r'(?m)^# lift = "saffman_mei" +# undecided: 0 % to 1\.5 % of the weight$')
+        self.assertRegex(text, r"(?m)^\? lift +off +undecided")
+        self.assertNotRegex(text, r"off, and not needed:[^:]*lift")
+
     def test_the_drag_law_is_judged(self):
         """By hand: Stokes' law carries the packed bed at 1e-6/18e-3 1500 9.81 0.4 m/s = 327 mm/s, where a bead falls at 150."""
         case = self.write("hand.toml", BY_HAND)
