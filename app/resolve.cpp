@@ -60,9 +60,14 @@ std::string point_text(double voidage, double reynolds, bool free) {
   return fmt::format("eps {:g}", voidage) + (free ? "" : fmt::format(", Re {:g}", reynolds));
 }
 
+void tell_notes(const core::Scene& scene) {
+  for (const std::string& note : packing_notes(scene)) core::print(stderr, "note: {}\n", note);
+}
+
 /// Rows of the points, from the speed of the first one's coarsest box on one core.
 void estimate_resolve(const ResolveOptions& options) {
   const core::Scene scene = read_boxes(options);
+  tell_notes(scene);
   const core::Resolve& plan = scene.resolve;
   const ResolvePoint first{plan.voidage[0], plan.reynolds[0], 0, plan.grids - 1};
   const bool free = plan.motion == core::SphereMotion::free;
@@ -109,6 +114,7 @@ class ResolveRun {
 
   /// Boxes are independent: each rank runs its own, and all receive the results at the end.
   void run() {
+    if (!options_.quiet) tell_notes(scene_);
     if (first_ && !options_.json) core::print("{}\n", row_header(scene_));
     table_ = row_header(scene_) + "\n";
     share_boxes();

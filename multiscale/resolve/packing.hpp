@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "core/case/scene.hpp"
@@ -25,6 +26,10 @@ struct SpherePacking {
 
 /// Edge of a cube with that voidage and these numbers of spheres, m.
 [[nodiscard]] double box_length(const core::Scene& scene, double voidage);
+
+/// A line for shares that whole numbers of spheres miss by more than 1 %, and one for a box of held spheres that is
+/// less than two of the largest diameters wide; empty without.
+[[nodiscard]] std::vector<std::string> packing_notes(const core::Scene& scene);
 
 /// A cube with that voidage and these numbers of spheres, without overlap beyond a thousandth of a radius. Throws
 /// core::StartError for spheres that do not fit. \param seed  of this packing

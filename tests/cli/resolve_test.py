@@ -155,6 +155,10 @@ class Resolve(Scratch):
     def rows(self, *words):
         return [{name: float(cell) for name, cell in row.items() if cell} for row in csv.DictReader(self.resolve(*words).stdout.splitlines())]
 
+    def test_shares_that_spheres_miss_are_noted(self):
+        words = ["resolve", self.case, "-o", self.out, "--estimate", "--set", "resolve.spheres=12"]
+        self.assertRegex(self.ends(DONE, *words).stderr, r"(?m)^note: \d+ \+ \d spheres have the volume shares 0\.\d+, 0\.\d+, the case 0\.5, 0\.5: ")
+
     def test_relative_motion_adds_up_to_the_held_drag(self):
         words = ["--set", "resolve.reynolds=[0]", "--set", "resolve.grids=1"]
         [held] = self.rows(*words)

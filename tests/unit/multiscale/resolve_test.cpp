@@ -68,6 +68,19 @@ TEST(Resolve, PackingHasItsVoidageAndNoOverlap) {
 }
 
 // (3.16) of the thesis: what acts on all spheres together is the pressure gradient on the whole box.
+// Solids of 16 + 2 spheres: 32 pi/6 mm3, in a cube of 33.51 mm3, 3.224 mm or 1.61 of the largest diameters wide.
+// Volumes of 9 + 1: 9 and 8 of 17.
+TEST(Resolve, NotesSaySharesMissedAndNarrowBoxes) {
+  core::Scene scene = two_sizes();
+  EXPECT_THAT(packing_notes(scene), testing::ElementsAre(testing::HasSubstr("at voidage 0.5 is 1.6 of the largest")));
+  scene.resolve.motion = core::SphereMotion::moving;
+  EXPECT_THAT(packing_notes(scene), testing::IsEmpty());
+  scene.resolve.spheres = 10;
+  EXPECT_THAT(
+      packing_notes(scene),
+      testing::ElementsAre(testing::HasSubstr("9 + 1 spheres have the volume shares 0.529, 0.471, the case 0.5, 0.5")));
+}
+
 TEST(Resolve, NetForcesMakeTheSumRule) {
   core::Scene scene = two_sizes();
   scene.resolve.cells_per_diameter = 6;
