@@ -315,7 +315,20 @@ void print_json(const DragOptions& options, const DragLaw& law) {
 }
 
 /// All laws, partitions and formulas of the shape, each with its source.
-void print_list() {
+void print_list(bool as_json) {
+  if (as_json) {
+    core::Json json = {
+        {"laws", core::Json::array()}, {"partitions", core::Json::array()}, {"shapes", core::Json::array()}};
+    const auto add = [&](const char* list, const auto& laws) {
+      for (const auto& law : laws)
+        json[list].push_back(
+            {{"name", std::string(law.name)}, {"help", std::string(law.help)}, {"source", std::string(law.source)}});
+    };
+    add("laws", closures::drag_laws());
+    add("partitions", closures::partitions());
+    add("shapes", closures::shape_laws);
+    return core::print("{}\n", core::json_text(json));
+  }
   const auto print = [](std::string_view name, std::string_view help, std::string_view source) {
     core::print("  {:20} {}\n  {:20} {}\n", name, help, "", source);
   };
@@ -328,7 +341,7 @@ void print_list() {
 }
 
 void run_drag(const DragOptions& options) {
-  if (options.list) return print_list();
+  if (options.list) return print_list(options.json);
   const DragLaw law = law_of(options);
   if (!options.csv.empty()) return options.json ? print_json(options, law) : print_csv(options, law);
   if (!options.voidage || !options.reynolds) throw core::CaseError("give --voidage and --re, or --csv FILE");

@@ -152,15 +152,17 @@ core::Json means_of(const Numbers& values) {
            })}};
 }
 
+/// Null without a finite number, as of a ratio to 0.
 core::Json ratio_of(const Numbers& above, const Numbers& below) {
   if (above.empty() || above.size() != below.size()) throw core::FileError("a ratio of rows that are not pairs");
   const auto ratio = [](const Numbers& a, const Numbers& b) {
     return std::accumulate(a.begin(), a.end(), 0.0) / std::accumulate(b.begin(), b.end(), 0.0);
   };
-  return {{"value", ratio(above, below)}, {"interval", interval_of(above.size(), [&](const measures::Rows& group) {
-                                             return ratio(measures::without(above, group),
-                                                          measures::without(below, group));
-                                           })}};
+  const double value = ratio(above, below);
+  if (!std::isfinite(value)) return {{"value", nullptr}, {"interval", nullptr}};
+  return {{"value", value}, {"interval", interval_of(above.size(), [&](const measures::Rows& group) {
+                               return ratio(measures::without(above, group), measures::without(below, group));
+                             })}};
 }
 
 /// Where a window ends in a run, s. Throws CaseError where it would begin at that time or later.

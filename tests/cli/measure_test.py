@@ -1,4 +1,5 @@
 """polybed measure as studies use it: of a run of either model, and of series. Usage: measure_test.py PROGRAM"""
+import json
 import re
 
 import h5py
@@ -103,6 +104,12 @@ class OfRun(Scratch):
         self.ends(WRONG_CASE, "measure")
         self.ends(WRONG_CASE, "measure", self.folder, "--series", "-", "--json")
         self.ends(WRONG_CASE, "measure", self.folder, "--markdown")
+
+    def test_a_ratio_to_zero_is_null(self):
+        for below, value in (([0, 0], None), ([1, 3], 0.5), ([0, 4], 0.5)):
+            asked = self.write("series.json", json.dumps({"ratios": [{"above": [1, 1], "below": below}]}))
+            found = strict_json(self.ends(DONE, "measure", "--series", asked, "--json").stdout)
+            self.assertEqual(found["ratios"][0]["value"], value)
 
     def test_series_are_refused_by_name(self):
         for text in ('{"series": [1]}', '{"series": [["a"]]}', '{"ratios": [{"above": [1, 2], "below": [1]}]}'):

@@ -121,7 +121,8 @@ class Explain(Scratch):
         sources = "".join(p.read_text() for folder in ("app", "multiscale/card") for p in sorted((ROOT / folder).glob("*.cpp")))
         headings = set(re.findall(r'card_line\("([^"]+)"', sources)) | set(re.findall(r'pair\{"(\w+ at)"', sources))
         self.assertLess({"bed", "rises at", "solids", "to go on"}, headings)
-        self.explained(sorted(headings | {"u_mf", "u", "mixture", "settled", "dense bed"}))
+        self.explained(sorted(headings | {"u_mf", "u", "mixture", "settled", "dense bed", "undecided", "u_over_u_mf", "u_mf_m_s", "terminal_m_s",
+                                            "left_out", "partly fluidised", "interval", "run_state", "lifted out", "in layers"}))
 
     def test_words_as_a_card_has_them(self):
         for pair in (("carried out", "carried_out"), ("geldart", "Geldart class")):
@@ -191,6 +192,10 @@ class Numbers(Scratch):
 
     def test_sources_name_the_papers(self):
         listed = self.ends(DONE, "drag", "--list").stdout
+        by_list = strict_json(self.ends(DONE, "drag", "--list", "--json").stdout)
+        for law in (law for laws in by_list.values() for law in laws):
+            self.assertIn(f"{law['name']:20} {law['help']}\n  {'':20} {law['source']}\n", listed)
+        self.assertEqual({name: len(laws) > 2 for name, laws in by_list.items()}, {"laws": True, "partitions": True, "shapes": True})
         for source in ("Ergun 1952; Cello 2009, eq. 3.24", "Wen and Yu 1966; ", "Di Felice 1994; ", "Ganser 1993"):
             self.assertIn(source, listed)
         year = r"(1[89]|20)\d\d"
