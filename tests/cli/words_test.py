@@ -122,7 +122,7 @@ class Explain(Scratch):
         headings = set(re.findall(r'card_line\("([^"]+)"', sources)) | set(re.findall(r'pair\{"(\w+ at)"', sources))
         self.assertLess({"bed", "rises at", "solids", "to go on"}, headings)
         self.explained(sorted(headings | {"u_mf", "u", "mixture", "settled", "dense bed", "undecided", "u_over_u_mf", "u_mf_m_s", "terminal_m_s",
-                                            "left_out", "partly fluidised", "interval", "run_state", "lifted out", "in layers"}))
+                                            "left_out", "partly_fluidised", "interval", "run_state", "lifted out", "in layers"}))
 
     def test_words_as_a_card_has_them(self):
         for pair in (("carried out", "carried_out"), ("geldart", "Geldart class")):

@@ -125,7 +125,8 @@ TEST_F(LawFile, RangeOfTheRowsCounts) {
       EXPECT_EQ(closures::pure_drag_at(law, 0.9, 500), closures::pure_drag_at(unknown, 0.9, 500));
     }
   }
-  EXPECT_THAT(record_of(path_, read_drag_file(path_)), HasSubstr("\"range\":{\"reynolds\":[0.0,5.0]"));
+  EXPECT_THAT(record_of(path_, read_drag_file(path_)),
+              HasSubstr("\"range\":{\"voidage\":[0.6,0.8],\"reynolds\":[0.0,5.0]}"));
   EXPECT_EQ(fitted_range(drag_law_named("cello")), "");
 }
 
