@@ -10,6 +10,7 @@
 #include "closures/terminal_velocity.hpp"
 #include "core/case/resolve.hpp"
 #include "multiscale/scene_rules.hpp"
+#include "relevance/drag_file.hpp"
 #include "relevance/drag_law.hpp"
 #include "relevance/fluid_properties.hpp"
 
@@ -96,6 +97,32 @@ void warn_of_floating_species(const core::Scene& scene, double density, Lines& w
                       "from below: it floats up and {}",
                       species.name, species.density, density,
                       scene.column.outlet == core::Outlet::open ? "leaves at the top" : "gathers under the screen"));
+}
+
+/// Warns of a law in a file that was not fitted to the settled bed or to the greatest velocity of the inlet.
+void warn_of_fitted_range(const core::Scene& scene, const relevance::FluidConstants& fluid, Lines& warnings) {
+  const std::string name = scene.drag().name;
+  if (!relevance::drag_file(name)) return;
+  const closures::DragLaw law = relevance::drag_law_of(scene);
+  const std::string range = relevance::fitted_range(law);
+  if (!range.empty() && !law.fitted_to)
+    warnings.push_back(
+        fmt::format("effects.drag = \"{}\": range unknown; the file does not contain that of its rows", name));
+  if (!law.fitted_to) return;
+  double shares = 0, per_mean = 0;
+  for (std::size_t j = 0; j < scene.species.size(); ++j) {
+    const double share = has_shares(scene) ? scene.bed.volume_share[j] : 1;
+    shares += share;
+    per_mean += share / scene.species[j].diameter;
+  }
+  const double velocity = greatest_of(scene.inlet.superficial_velocity), settled = 1 - scene.bed.solids_fraction,
+               reynolds = fluid.density * velocity * shares / per_mean / fluid.viscosity;
+  if (!law.fitted_to->contains(settled, reynolds))
+    warnings.push_back(
+        fmt::format("effects.drag = \"{}\" was fitted to {}, and the case has voidage {:.3g} as it settles and Re "
+                    "{:.3g} of the Sauter "
+                    "diameter at {:.3g} mm/s: outside, the law is extrapolated",
+                    name, range, settled, reynolds, 1e3 * velocity));
 }
 
 /// Warns of a fast gas without compressibility: its density changes by M^2/2 where it stops.
@@ -223,6 +250,7 @@ std::vector<std::string> scene_warnings(const core::Scene& scene) {
   const double density = fluid.density;
   warn_of_downflow(scene, fluid, warnings);
   if (scene.column.gravity > 0) warn_of_floating_species(scene, density, warnings);
+  warn_of_fitted_range(scene, fluid, warnings);
   warn_of_fast_gas(scene, density, warnings);
   warn_of_absolute_pressure(scene, density, warnings);
   if (scene.column.around_axis() && density < relevance::lightest_liquid)

@@ -97,12 +97,13 @@ class Fit(Fitted):
         self.assertIn("outside the range of the law, voidage 0.6 to 0.8, Re 0 to 5: voidage ", self.ends(DONE, "inversion", SYSTEM_B, "--law", law).stdout)
         self.assertIs(strict_json(self.ends(DONE, "inversion", SYSTEM_B, "--law", law, "--json").stdout)["outside_range"], True)
         words = ["tfm", CASE, *SMALL, "--until", "0.01 s", "--set", f'effects.drag="{law}"', "-o", self.folder / "run"]
-        self.assertRegex(self.ends(DONE, *words).stderr, r"drag file:.*: \d+(\.\d+)? % of .* evaluations outside its range")
+        self.assertRegex(self.ends(DONE, *words).stderr, r"warning: effects.drag = .* was fitted to voidage 0.6 to 0.8, Re 0 to 5, and the case has ")
         [used] = [use for use in strict_json((self.folder / "run/run.json").read_text())["guards"] if use["closure"].startswith("drag ")]
         self.assertGreater(used["outside_range"], 0)
         del content["range"]  # as in older files
         path.write_text(json.dumps(content))
         self.assertIn("range: unknown", point("5"))
+        self.assertIn("range unknown", self.ends(DONE, "check", CASE, "--set", f'effects.drag="{law}"').stdout)
         self.assertIn("range unknown", self.ends(DONE, "inversion", SYSTEM_B, "--law", law).stdout)
         self.assertIsNone(strict_json(self.ends(DONE, "inversion", SYSTEM_B, "--law", law, "--json").stdout)["outside_range"])
         self.assertIs(strict_json(self.ends(DONE, "inversion", SYSTEM_B, "--json").stdout)["outside_range"], False)
