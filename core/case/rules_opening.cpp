@@ -57,9 +57,11 @@ Broken beside_the_end(const Scene& scene, const std::vector<Part>& parts) {
     const Part& part = parts[k];
     for (std::size_t d = 0; d < part.from.size(); ++d) {
       const double most = size[std::size_t(axis_along(place_of(part), int(given.size()), d))];
-      if (part.from[d] < part.to[d] && part.to[d] <= most * (1 + 1e-12)) continue;
-      broken.add({fmt::format("{:.4g}", part.from[d]), fmt::format("{:.4g}", part.to[d]), name_of_place(part),
-                  fmt::format("{:.4g}", most)},
+      const bool ordered = part.from[d] < part.to[d];
+      if (ordered && part.to[d] <= most * (1 + 1e-12)) continue;
+      broken.add({fmt::format("{:.4g}", part.from[d]), fmt::format("{:.4g}", part.to[d]),
+                  ordered ? fmt::format("does not lie {}, 0 to {:.4g} m", name_of_place(part), most)
+                          : "ends before it starts: \"from\" must be below \"to\""},
                  entry_of(scene, parts, k));
       break;
     }
@@ -229,7 +231,7 @@ std::vector<Rule> place_rules(const std::string& table, std::vector<Part> Scene:
        [parts](const Scene& scene) { return corners_miscounted(scene, scene.*parts); },
        true},
       {{from, to, at, "column.size"},
-       "a " + table + " from {} to {} m does not lie {}, 0 to {} m",
+       "a " + table + " from {} to {} m {}",
        [parts](const Scene& scene) { return beside_the_end(scene, scene.*parts); }},
       rule("column.size", ": a column of two dimensions has two sides, left and right",
            [](const Column& column, ColumnFace face) { return column.dimensions == 2 && axis_of(face) == 2; }),
@@ -311,7 +313,7 @@ std::vector<Rule> layer_corner_rules() {
            [](const Scene& scene) { return corners_miscounted(scene, scene.layers); },
            true},
           {{"layer.from", "layer.to", "column.size"},
-           "a layer from {} to {} m does not lie {}, 0 to {} m",
+           "a layer from {} to {} m {}",
            [](const Scene& scene) { return beside_the_end(scene, scene.layers); },
            true}};
 }

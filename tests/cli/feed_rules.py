@@ -7,7 +7,7 @@ def feeds(*parts, species="fine", velocity=1):
 
 FEEDS = {
     "feed.from and feed.to have {} and {} numbers: {} here": [feeds(", from=[0.02]")],
-    "a feed from {} to {} m does not lie {}, 0 to {} m": [feeds(", from=[0.02], to=[0.01]")],
+    "a feed from {} to {} m {}": [feeds(", from=[0.02], to=[0.01]")],
     'feed.species = "{}": no such species': [feeds("", species="fin")],
     "a feed of {} of {} m/s at a velocity of {} m/s would be denser than the settled bed: raise feed.velocity above {} m/s": [
         feeds("", velocity=0.1)],

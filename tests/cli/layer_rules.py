@@ -21,7 +21,7 @@ LAYERS = {
     "layer.volume_share has {} numbers, there are {} species": [*COUNTED, layers("volume_share=[0.5, 0.5], height=0.02")],
     "layer.volume_share sums to {}, not to 1": [*COUNTED, layers("volume_share=[0.9], height=0.02")],
     "layer.from and layer.to have {} and {} numbers: {} here": [*COUNTED, layers(FINE + ", from=[0.01, 0.02], to=[0.03]")],
-    "a layer from {} to {} m does not lie {}, 0 to {} m": [*COUNTED, layers(FINE + ", from=[0.02], to=[0.07]")],
+    "a layer from {} to {} m {}": [*COUNTED, layers(FINE + ", from=[0.02], to=[0.07]")],
     "[[layer]] number {} does not lie level: only {} % of it lies on layers up to {} m high; give a [[layer]] for each part": [
         *COUNTED, layers(FINE + ", from=[0], to=[0.03]", FINE)],
     "layer.solids_fraction = {}: spheres of these sizes fill at most {} of the volume, and about 0.6 when they settle": [
