@@ -97,8 +97,8 @@ const std::vector<Term>& terms() {
       {"has left", "line of the card", "mass of each species that has left the column, and its share (the recovery)",
        ""},
       {"leaves by", "line of the card",
-       "for each [[discharge]] and an open top, if there are several: mean volume flow of fluid and solids, and the "
-       "mass of each species that has left there",
+       "for each [[discharge]] and an open top, if there are several or a lid on top: mean volume flow of fluid and "
+       "solids, and the mass of each species that has left there",
        ""},
       {"mass", "invariant", "relative change of the mass of a species beyond what was fed and has left",
        "lower tfm.rtol"},

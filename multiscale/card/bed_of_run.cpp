@@ -132,6 +132,9 @@ void find_exits(const core::Scene& scene, const std::vector<measures::Kind>& kin
     for (const measures::Kind& kind : kinds)
       if (const Series* out = window.history.find(name + "_" + kind.name + "_kg")) exit.out[kind.name] = last(*out);
   }
+  if (bed.exits.empty() && scene.discharges.size() == 1)  // all that leaves
+    if (const std::optional<TimeMean> flow = window.mean("overflow_m3_s"))
+      bed.exits.push_back({"discharge1", flow, bed.out});
 }
 
 void find_tops(const std::vector<measures::Kind>& kinds, const Window& window, BedOfRun& bed) {

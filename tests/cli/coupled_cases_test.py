@@ -78,6 +78,7 @@ class CoupledCases(Scratch):
         self.assertTrue(all(invariant["held"] for invariant in record["invariants"]), record["invariants"])
         flow = history(directory)["overflow_m3_s"][-1]
         self.assertAlmostEqual(flow / (15e-3 * 24e-3 * 3e-3 + 8e-3 * 6e-3 * 3e-3), 1, delta=1e-6)
+        self.assertIn("leaves by     discharge1: 1.22 ml/s, beads ", "\n".join(record["card"]["lines"]))
 
     def test_a_tube_is_fed_and_overflows_through_its_wall(self):
         """The same in a tube of 24 mm with ports of 6 by 6 mm and larger beads, by both models: 8 mm/s enter through its circle and through the
@@ -96,6 +97,7 @@ class CoupledCases(Scratch):
             flow = history(directory)["overflow_m3_s"][-1]
             self.assertAlmostEqual(flow / (8e-3 * np.pi * 12e-3**2 + 8e-3 * 36e-6), 1, delta=1e-5, msg=model)
             self.assertGreater(history(directory)["out_beads_kg"][-1], 0)
+            self.assertIn("leaves by     discharge1: 3.91 ml/s, beads ", "\n".join(record["card"]["lines"]))
             self.assertTrue(all(invariant["held"] for invariant in record["invariants"]), (model, record["invariants"]))
         fed, out = (record[key]["beads"]["particles"] for key in ("feed", "outflow"))
         self.assertEqual(fed + record["feed"]["beads"]["waiting"], 24)
