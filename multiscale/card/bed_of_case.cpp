@@ -83,6 +83,20 @@ Balance balance_of(const core::Scene& scene) {
   return balance;
 }
 
+/// Discharges in the sides that begin below a height: number and lower edge, m.
+std::vector<std::pair<std::size_t, double>> discharges_below(const core::Scene& scene, double height) {
+  std::vector<std::pair<std::size_t, double>> found;
+  for (std::size_t n = 0; n < scene.discharges.size(); ++n) {
+    const core::Discharge& discharge = scene.discharges[n];
+    const double low = discharge.from.empty() ? 0 : discharge.from.back();  // the height comes last
+    const auto& given = discharge.superficial_velocity;
+    const bool flows =
+        discharge.pressure || std::any_of(given.begin(), given.end(), [](auto& one) { return one.second > 0; });
+    if (is_side(discharge.at) && flows && low < height) found.emplace_back(n + 1, low);
+  }
+  return found;
+}
+
 /// Predicts the whole bed at the velocity of its inlet. \param share  of each species
 void expect(const core::Scene& scene, const Slices& slices, const Balance& balance, std::vector<double> share,
             const relevance::FluidConstants& fluid, double gravity, BedOfCase& bed) {
@@ -122,6 +136,14 @@ void expect(const core::Scene& scene, const Slices& slices, const Balance& balan
     });
   };
   set_height(balance, bed.own);
+  if (bed.state == fluidised && slices.empty() && balance.known() && !scene.bed.held) {
+    bed.no_balance = solids > 0 && !bed.own.height;
+    const bool mixed = layers.empty() && scene.jets.empty() && fluid.density >= relevance::lightest_liquid;
+    std::vector<double> of_each = share;
+    for (double& one : of_each) one *= solids / stays;
+    if (mixed) bed.parted = parted(scene, balance, layers_of_species(scene, of_each, fluid, gravity), velocity);
+  }
+  if (bed.own.height && !scene.bed.held) bed.discharges = discharges_below(scene, *bed.own.height);
   bed.turns_over = bed.state == fluidised && turns_over(balance, layers, velocity);
   if (bed.state == packed && slices.empty())
     bed.packed_drop = layers.empty() ? balance.packed_drop(bed_of_those, velocity, solids)
@@ -213,6 +235,8 @@ BedOfCase bed_without_expansion(const core::Scene& scene, const Slices& slices) 
   bed.settled = settled_height(scene, slices);
   bed.masses = masses_of(scene);
   if (scene.places.has("inlet.flow_rate")) bed.area = scene.column.cross_section();
+  if (scene.column.dimensions == 2 && !scene.column.depth && !scene.column.around_axis())
+    bed.assumed_depth = scene.column.size[2];
   const double gravity = scene.column.gravity * std::max(0.0, -scene.column.down[1]);
   if (!scene.fluid.present()) {
     bed.discharge = expected_discharge(scene, shares_of(scene), gravity);
@@ -300,6 +324,7 @@ void add_expansion(const core::Scene& scene, const Slices& slices, BedOfCase& be
       if (!velocity) return;
       found.least = std::min(found.least, *velocity);
       found.most = std::max(found.most, *velocity);
+      if (bed.others[law].law == bed.own.law) found.own = velocity;
     }
     if (found.most > 0) bed.expansion.push_back(found);
   }

@@ -56,14 +56,21 @@ struct ByLaw {
 
 /// The range of velocities at a bed expansion, from the laws derived from such beds.
 struct ExpansionAt {
-  double share;        ///< increase in height over the settled height
-  double least, most;  ///< superficial, m/s
+  double share;                    ///< increase in height over the settled height
+  double least, most;              ///< superficial, m/s
+  std::optional<double> own = {};  ///< by the law of the case, if it is one of them, m/s
 };
 
 /// The least time, s, until a bed can be steady, and what takes it; without a time why none is foreseen.
 struct FirstSteady {
   std::optional<double> least;
   std::string why;
+};
+
+/// A bed of several species that part into layers, each a bed of its own.
+struct PartedBed {
+  double height = 0;                 ///< m; infinite if the fluid carries up a species that is alone
+  std::vector<std::string> leaving;  ///< species that reach the top of the column
 };
 
 struct BedOfCase {
@@ -76,18 +83,22 @@ struct BedOfCase {
   std::vector<std::pair<double, double>> by_packing;   ///< u_mf of the mixture at other settled solids fractions, m/s
   std::vector<std::pair<std::string, double>> masses;  ///< kg at the start; size classes count as one
   double area = 0;                                     ///< m2, of the inlet of a case that gives its flow rate
+  std::optional<double> assumed_depth;                 ///< m, of a column in two dimensions without column.depth
   std::optional<double> velocity;                      ///< superficial, mean over the bottom at the end of the run, m/s
   std::optional<double> inlet;                         ///< of a case with jets: the inlet's own at that time, m/s
   double settled = 0;                                  ///< m, height of the settled bed, higher between walls inside
-  std::optional<double> lift;          ///< Pa, pressure drop expected, fluidised, where the cross-section changes
-  std::optional<double> packed_drop;   ///< Pa, pressure drop of the packed bed, by the law of the case
-  Fluidisation state{};                ///< predicted
-  std::size_t resting = 0;             ///< layers of a fluidised bed that are still packed
-  bool turns_over = false;             ///< an upper layer has a greater bulk density than the one below it
-  bool top_heavy = false;              ///< it is wider, and therefore denser, at its top than at the bottom
-  std::vector<std::string> leaving;    ///< species that the fluid lifts out of a bed of the others
-  std::vector<ExpansionAt> expansion;  ///< of a bed in a liquid, as far as the height of the column allows
-  FirstSteady steady;                  ///< of a bed in a flow
+  std::optional<double> lift;         ///< Pa, pressure drop expected, fluidised, where the cross-section changes
+  std::optional<double> packed_drop;  ///< Pa, pressure drop of the packed bed, by the law of the case
+  Fluidisation state{};               ///< predicted
+  std::size_t resting = 0;            ///< layers of a fluidised bed that are still packed
+  bool turns_over = false;            ///< an upper layer has a greater bulk density than the one below it
+  bool top_heavy = false;             ///< it is wider, and therefore denser, at its top than at the bottom
+  std::vector<std::string> leaving;   ///< species that the fluid lifts out of a bed of the others
+  std::optional<PartedBed> parted;    ///< of species mixed in a liquid whose own beds differ in bulk density
+  bool no_balance = false;            ///< fluidised, but by the law of the case the fluid carries the solids up
+  std::vector<std::pair<std::size_t, double>> discharges;  ///< in the sides, reached by the bed: number, lower edge, m
+  std::vector<ExpansionAt> expansion;          ///< of a bed in a liquid, as far as the height of the column allows
+  FirstSteady steady;                          ///< of a bed in a flow
   std::optional<ExpectedDischarge> discharge;  ///< of dry particles with dem.opening
   std::string validity;                        ///< agreement of the models with measured beds of this kind
   [[nodiscard]] std::optional<double> velocity_ratio() const;

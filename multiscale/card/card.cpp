@@ -94,6 +94,22 @@ std::string expected_height(const core::Scene& scene, const BedOfCase& bed) {
   return text + (bed.turns_over ? "; an upper layer becomes denser than the one below: they mix or change places" : "");
 }
 
+std::string parted_text(const core::Scene& scene, const PartedBed& parted) {
+  if (parted.leaving.empty())
+    return fmt::format("about {:.0f} mm high if the species part into layers", 1e3 * parted.height);
+  const std::string species = each(parted.leaving);
+  const bool open = scene.column.outlet == core::Outlet::open;
+  return "up to the top of the column if the species part into layers" +
+         (open ? ", over which then leave: " + species : "");
+}
+
+std::string discharges_text(const std::vector<std::pair<std::size_t, double>>& discharges) {
+  std::vector<std::string> parts;
+  for (const auto& [number, low] : discharges)
+    parts.push_back(fmt::format("discharge {} at {:.0f} mm", number, 1e3 * low));
+  return "the bed reaches " + each(parts) + ": solids leave there";
+}
+
 /// Predictions for an opening in the bottom.
 void add_discharge(const ExpectedDischarge& out, std::vector<std::string>& lines) {
   const std::string width = fmt::format("the opening is {:.2g} particle diameters wide", out.diameters);
@@ -135,6 +151,10 @@ std::string out_text(const BedOfRun& bed) {
                     (share == bed.recovery.end() ? "" : fmt::format(" ({:.3g} %)", none ? 0 : 100 * share->second)));
   }
   return each(parts);
+}
+
+std::string depth_text(const BedOfCase& bed) {
+  return bed.assumed_depth ? fmt::format(" (assumed depth {:.3g} mm)", 1e3 * *bed.assumed_depth) : "";
 }
 
 /// Height of the bed, and of each species if they separate or if one is suspended above the others.
@@ -276,7 +296,9 @@ void write_expected(core::Json& json, const core::Scene& scene, const BedOfCase&
       {"state", core::text_or_null(name_of(bed.state))},
       {"law", core::text_or_null(bed.own.law)},
       {"bed_height_m", core::or_null(bed.own.height)},
+      {"reaches_top", bed.own.height ? core::Json(*bed.own.height >= scene.column.size[1]) : core::Json()},
       {"bed_height_mixed_m", core::or_null(bed.own.mixed)},
+      {"bed_height_parted_m", bed.parted ? core::or_null(bed.parted->height) : core::Json()},
       {"settled_height_m", bed.settled},
       {"packed_pressure_drop_Pa", core::or_null(bed.packed_drop)},
       {"expansion", expansion},
@@ -298,6 +320,9 @@ std::vector<std::string> expectation_lines(const core::Scene& scene, const BedOf
     std::string text = words_of(bed.state);
     if (bed.packed_drop && *bed.packed_drop > 0) text += fmt::format(", pressure drop {:.4g} Pa", *bed.packed_drop);
     if (bed.own.height) text += expected_height(scene, bed);
+    if (bed.no_balance)
+      text += fmt::format("; {} has no balance at {}: by it the fluid carries the solids up", bed.own.law,
+                          velocity_text(*bed.velocity, bed.area));
     if (!bed.leaving.empty())
       text += fmt::format("; lifted {}: {}", scene.column.outlet == core::Outlet::open ? "out" : "to the top",
                           each(bed.leaving));
@@ -308,23 +333,28 @@ std::vector<std::string> expectation_lines(const core::Scene& scene, const BedOf
     if (bed.top_heavy)
       lines.push_back(card_line(
           "", "as if each level were even: wider above, the bed is denser there, turns over and stays lower"));
-    const std::string others =
-        bed.own.height && bed.state != Fluidisation::packed ? by_others(bed, &ByLaw::height, top) : std::string();
+    const std::string others = (bed.own.height || bed.no_balance) && bed.state != Fluidisation::packed
+                                   ? by_others(bed, &ByLaw::height, top)
+                                   : std::string();
     if (!others.empty()) lines.push_back(card_line("", others));
+    if (bed.parted) lines.push_back(card_line("", parted_text(scene, *bed.parted)));
+    if (!bed.discharges.empty()) lines.push_back(card_line("", discharges_text(bed.discharges)));
   }
   if (!bed.expansion.empty()) {
-    std::string text;
-    for (const ExpansionAt& one : bed.expansion)
-      text += fmt::format("{}{:.0f} % at {}", text.empty() ? "" : ", ", 100 * one.share,
-                          velocities_text(one.least, one.most, bed.area));
-    lines.push_back(card_line("expands by", text + " by laws of such beds"));
+    std::vector<std::string> all, own;
+    for (const ExpansionAt& one : bed.expansion) {
+      all.push_back(fmt::format("{:.0f} % at {}", 100 * one.share, velocities_text(one.least, one.most, bed.area)));
+      if (one.own) own.push_back(velocity_text(*one.own, bed.area));
+    }
+    const std::string by_own = own.empty() ? "" : fmt::format("; {} by {}", each(own), bed.own.law);
+    lines.push_back(card_line("expands by", each(all) + " by laws of such beds" + by_own));
   }
   if (bed.discharge) add_discharge(*bed.discharge, lines);
   if (!bed.discharge && scene.dem.opening && !scene.walls.empty())
     lines.push_back(
         card_line("expect", "discharge not estimated: Beverloo's law knows no walls inside, apart from a cone"));
   add_velocities(bed, true, lines);
-  if (!bed.masses.empty()) lines.push_back(card_line("solids", masses_text(bed.masses)));
+  if (!bed.masses.empty()) lines.push_back(card_line("solids", masses_text(bed.masses) + depth_text(bed)));
   if (!bed.steady.why.empty()) lines.push_back(card_line("steady", first_steady_text(scene, bed.steady)));
   if (!bed.validity.empty())
     lines.push_back(card_line("validity", fmt::format("{}; {} validate --list", bed.validity, typed_program())));
@@ -336,7 +366,7 @@ std::vector<std::string> result_lines(const Card& card) {
   std::vector<std::string> lines;
   if (const std::string text = bed_text(seen); !text.empty()) lines.push_back(card_line("bed", text));
   add_velocities(card.expected, false, lines);
-  if (!seen.masses.empty()) lines.push_back(card_line("solids", masses_text(seen.masses)));
+  if (!seen.masses.empty()) lines.push_back(card_line("solids", masses_text(seen.masses) + depth_text(card.expected)));
   if (seen.mixing)
     lines.push_back(card_line("mixing", fmt::format("{:.2f}  (1 mixed, 0 separated)", std::max(*seen.mixing, 0.0))));
   if (!seen.out.empty()) lines.push_back(card_line("has left", out_text(seen)));

@@ -41,6 +41,8 @@ FirstSteady first_steady(const core::Scene& scene, const Slices& slices, const B
   if (bed.state == Fluidisation::packed && !loose) return {{}, "from the start: the bed stays packed"};
   if (gas) return {{}, "no time foreseen: the height swings as bubbles form and burst"};
   if (overflows(scene, bed)) return {{}, "no time foreseen: solids leave over the top"};
+  if (!bed.discharges.empty()) return {{}, "no time foreseen: solids leave through a discharge"};
+  if (bed.no_balance) return {{}, "no time foreseen: by its drag law the fluid carries all solids to the top"};
   if (scene.bed.start.kind == core::StartKind::list || scene.bed.start.kind == core::StartKind::checkpoint)
     return {{}, "no time foreseen: the start is read from a file"};
   if (loose && !bed.leaving.empty()) return {{}, "no time foreseen: the solids that are lifted leave first"};

@@ -46,6 +46,43 @@ std::vector<LayerBed> layers_of(const core::Scene& scene, const Slices& slices, 
   return layers;
 }
 
+std::vector<LayerBed> layers_of_species(const core::Scene& scene, const std::vector<double>& solids,
+                                        const relevance::FluidConstants& fluid, double gravity) {
+  const std::vector<double> settled = core::settled_fractions(scene).of_species;
+  std::vector<LayerBed> layers;
+  for (std::size_t j = 0; j < solids.size(); ++j) {
+    if (!(solids[j] > 0)) continue;
+    std::vector<double> only(solids.size(), 0);
+    only[j] = 1;
+    layers.push_back({mixture_of(scene, only, fluid, gravity), 1 - settled[j], solids[j], j});
+  }
+  return layers;
+}
+
+std::optional<PartedBed> parted(const core::Scene& scene, const Balance& balance, const std::vector<LayerBed>& layers,
+                                double velocity) {
+  constexpr double least = 1.05;  // ratio of bulk densities
+  struct Part {
+    double bulk, height;
+    std::size_t species;
+  };
+  std::vector<Part> parts;
+  for (const LayerBed& layer : layers) {
+    if (!(layer.bed.excess > 0)) return {};
+    const std::optional<Filled> filled = layer.of(balance).height({}, layer.bed, velocity, layer.solids);
+    const double height = filled ? filled->height : HUGE_VAL;
+    parts.push_back({layer.bed.excess * layer.solids / height, height, *layer.only});
+  }
+  std::stable_sort(parts.begin(), parts.end(), [](const Part& a, const Part& b) { return a.bulk > b.bulk; });
+  if (parts.size() < 2 || parts.front().bulk < least * parts.back().bulk) return {};
+  PartedBed bed;
+  for (const Part& part : parts) {
+    bed.height += part.height;
+    if (bed.height >= scene.column.size[1]) bed.leaving.push_back(scene.species[part.species].name);
+  }
+  return bed;
+}
+
 std::vector<double> lifting_velocities(const Balance& balance, const std::vector<LayerBed>& layers, double of_one) {
   std::vector<double> all;
   for (const LayerBed& layer : layers)

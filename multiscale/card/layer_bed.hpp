@@ -5,6 +5,7 @@
 
 #include "core/case/scene.hpp"
 #include "multiscale/card/balance.hpp"
+#include "multiscale/card/bed_of_case.hpp"
 #include "relevance/fluid_properties.hpp"
 
 namespace polybed::multiscale {
@@ -34,6 +35,15 @@ struct LayerBed {
 [[nodiscard]] std::vector<LayerBed> layers_of(const core::Scene& scene, const Slices& slices,
                                               const std::vector<double>& share, const relevance::FluidConstants& fluid,
                                               double gravity);
+
+/// A layer for each species of a mixed bed. \param solids  volume of each over the area of the bottom, m
+[[nodiscard]] std::vector<LayerBed> layers_of_species(const core::Scene& scene, const std::vector<double>& solids,
+                                                      const relevance::FluidConstants& fluid, double gravity);
+
+/// These layers with the one of the greatest bulk density below; nothing if the bulk densities are within 5 %, or if a
+/// layer is lighter than the fluid.
+[[nodiscard]] std::optional<PartedBed> parted(const core::Scene& scene, const Balance& balance,
+                                              const std::vector<LayerBed>& layers, double velocity);
 
 /// Velocities at which the layers begin to expand by themselves, m/s. \param of_one  that of a bed without layers
 [[nodiscard]] std::vector<double> lifting_velocities(const Balance& balance, const std::vector<LayerBed>& layers,

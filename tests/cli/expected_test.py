@@ -37,6 +37,40 @@ opening = "24 mm"
 until = "0.1 s"
 """
 
+# A tube of ion exchange resin with some of its fragments, which lift before it does.
+RESIN = """[column]
+size = ["300 mm", "1.6 m"]
+cells = [1, 80]
+sides = "periodic"
+outlet = "open"
+[fluid]
+name = "water"
+temperature = "20 degC"
+[[species]]
+name = "resin"
+diameter = "0.6 mm"
+density = 1250
+[[species]]
+name = "fragments"
+diameter = "0.2 mm"
+density = 1250
+[bed]
+volume_share = [0.95, 0.05]
+static_height = "800 mm"
+solids_fraction = 0.6
+[inlet]
+superficial_velocity = "3.9 mm/s"
+[effects]
+drag = "richardson_zaki"
+partition = "brinkman_oseen"
+solids_stress = "frictional"
+others = "none"
+[run]
+until = "60 s"
+"""
+ALONE = RESIN.replace(RESIN[RESIN.index("[[species]]"):RESIN.index("[[species]]\nname = \"fragments")], "").replace("[0.95, 0.05]", "[1]").replace(
+    'partition = "brinkman_oseen"\n', "")
+
 
 class Expected(Scratch):
     def expected(self, text, *words):
@@ -73,6 +107,65 @@ class Expected(Scratch):
         text = self.ends(DONE, "check", case, *low, "--set", "column.outlet=screen").stdout
         self.assertNotIn("solids leave", text)
         self.assertRegex(text, r"(?m)^steady ")
+
+    def test_a_mixed_bed_whose_species_part(self):
+        """Each species above the other is a bed of its own: the sum of two cases of one species."""
+        slow = "--set", "inlet.superficial_velocity=2 mm/s"
+        both = self.expected(RESIN, *slow)
+        resin = RESIN.replace(RESIN[RESIN.index("[[species]]\nname = \"fragments"):RESIN.index("[bed]")], "").replace("[0.95, 0.05]", "[1]").replace(
+            'partition = "brinkman_oseen"\n', "")
+        parts = [self.expected(text, *slow, "--set", f"bed.static_height={height}")["bed_height_m"] for text, height in ((resin, 0.76), (ALONE, 0.04))]
+        self.assertAlmostEqual(both["bed_height_parted_m"], sum(parts), delta=1e-9)
+        self.assertFalse(both["reaches_top"])
+        case = self.write("bed.toml", RESIN)
+        self.assertRegex(self.ends(DONE, "check", case, *slow).stdout, rf"\n +about {1e3 * sum(parts):.0f} mm high if the species part into layers\n")
+        fast = self.ends(DONE, "check", case).stdout
+        self.assertRegex(fast, r"expect +fluidised, about \d+ mm high by richardson_zaki \(settled 800 mm, column 1600 mm\)\n")
+        self.assertRegex(fast, r"\n +up to the top of the column if the species part into layers, over which then leave: fragments\n")
+        self.assertNotIn("then leave", self.ends(DONE, "check", case, "--set", "column.outlet=screen").stdout)
+        alike = self.ends(DONE, "check", case, "--set", "species.fragments.diameter=0.59 mm").stdout
+        self.assertNotIn("part into layers", alike)
+        self.assertIsNone(self.expected(ALONE, *slow)["bed_height_parted_m"])
+
+    def test_a_law_without_a_balance_is_named(self):
+        """Between the velocity that carries a lone particle by the law and the one at which it falls by the correlation."""
+        case = self.write("bed.toml", ALONE.replace("3.9 mm/s", "4.77 mm/s"))
+        found = strict_json(self.ends(DONE, "check", case, "--json").stdout)["expected"]
+        self.assertGreater(found["terminal_m_s"]["fragments"], 0.00477)
+        self.assertEqual((found["state"], found["bed_height_m"], found["reaches_top"]), ("fluidised", None, None))
+        text = self.ends(DONE, "check", case).stdout
+        self.assertRegex(text, r"(?m)^expect +fluidised; richardson_zaki has no balance at 4.77 mm/s: by it the fluid carries the solids up$")
+        self.assertRegex(text, r"(?m)^steady +no time foreseen: by its drag law the fluid carries all solids to the top; ")
+
+    def test_a_discharge_below_the_top_of_the_bed(self):
+        side = RESIN.replace('"periodic"', '"wall"') + '[[discharge]]\nat = "right"\nfrom = ["1 m"]\nto = ["1.02 m"]\npressure = 0\n'
+        case = self.write("bed.toml", side)
+        text = self.ends(DONE, "check", case).stdout
+        self.assertRegex(text, r"\n +the bed reaches discharge 1 at 1000 mm: solids leave there\n")
+        self.assertRegex(text, r"(?m)^steady +no time foreseen: solids leave through a discharge; ")
+        self.assertNotIn("discharge", self.ends(DONE, "check", case, "--set", "inlet.superficial_velocity=1 mm/s").stdout)
+        upside_down = self.write("down.toml", side.replace('"1.02 m"', '"0.98 m"'))
+        self.assertIn('a discharge from 1 to 0.98 m ends before it starts: "from" must be below "to"', self.ends(WRONG_CASE, "check", upside_down).stderr)
+
+    def test_where_the_law_of_the_case_expands_the_bed(self):
+        """At the velocities that the card gives by the law of the case its own height is 1.1, 1.3 and 1.5 times the settled one."""
+        slow = ALONE.replace('"800 mm"', '"400 mm"')
+        line = re.search(r"(?m)^expands by.* by laws of such beds; (.*) by richardson_zaki$", self.ends(DONE, "check", self.write("bed.toml", slow)).stdout)[1]
+        for velocity, share in zip(line.split(", "), (0.1, 0.3, 0.5), strict=True):
+            height = self.expected(slow, "--set", f"inlet.superficial_velocity={velocity}")["bed_height_m"]
+            self.assertAlmostEqual(height / 0.4, 1 + share, delta=0.01)  # three digits of the velocity
+
+    def test_a_bed_that_reaches_the_top_says_so(self):
+        low = "--set", 'column.size=["300 mm", "0.9 m"]', "--set", "column.cells=[1,45]"
+        found = self.expected(RESIN, *low)
+        self.assertTrue(found["bed_height_m"] > 0.9 and found["reaches_top"] is True, found)
+
+    def test_a_depth_that_the_case_does_not_give_is_named(self):
+        """Twice the largest diameter and its skins, in which the masses are."""
+        case = self.write("bed.toml", RESIN)
+        mass, depth = re.search(r"(?m)^solids +resin ([\d.]+) g, fragments .* \(assumed depth ([\d.]+) mm\)$", self.ends(DONE, "check", case).stdout).groups()
+        self.assertAlmostEqual(float(mass), 0.95 * 1250 * 0.3 * 0.8 * 0.6 * float(depth), delta=0.01 * float(mass))
+        self.assertNotIn("assumed depth", self.ends(DONE, "check", case, "--set", "column.depth=2 mm").stdout)
 
     def test_a_flow_rate_in_a_wrong_unit_is_not_missing(self):
         text = FILTER.replace('superficial_velocity = "40 m/h"', 'flow_rate = "3 m"').replace('sides = "periodic"', 'sides = "periodic"\ndepth = "50 mm"')
