@@ -321,8 +321,8 @@ void CaseRun::print_end(const std::string& record) {
                                            directory_.string())));
   for (const std::string& line : result_lines(card_)) core::print(stderr, "{}\n", line);
   if (!card_.seen.steady || *card_.seen.steady || is_over()) return;
-  const bool ended = !core::is_later(scene_.run.until, simulation().time());
-  const double until = (ended ? 2 : 1) * scene_.run.until;
+  const double reached = simulation().time();
+  const double until = core::is_later(scene_.run.until, reached) ? scene_.run.until : 2 * reached;
   core::print(stderr, "{}\n",
               card_line("to go on", fmt::format("{} --until \"{:.4g} s\"", command_to_resume({}), until)));
 }

@@ -93,6 +93,15 @@ class Card(Scratch):
         again = self.ends(DONE, *shlex.split(command), "--quiet", "--no-picture")
         self.assertEqual(strict_json((run / "run.json").read_text())["time_s"], 0.2, again.stderr)
 
+    def test_a_run_that_never_became_steady_goes_on_from_its_end(self):
+        """It ends at 20 times run.until, 0.1 s, while the bed still rises."""
+        run = self.folder / "run"
+        words = ["tfm", CASE, *SMALL, "--set", "output.history_every=1e-3", "--set", "run.until=0.005", "-o", run, "--no-picture"]
+        for more in (["--until", "steady"], ["--resume"], ["--resume", "--until", "0.05 s"]):
+            told = self.ends(DONE, *words, *more).stderr
+            self.assertRegex(told, r'(?m)^to go on .* --resume .* --until "0.2 s"$', more)
+        self.assertEqual(strict_json((run / "run.json").read_text())["time_s"], 0.1)
+
     def test_a_run_ends_when_its_bed_has_become_steady(self):
         """A row of cells that parts into layers: at 30 s it still drifts, at 95 s no longer."""
         run = self.folder / "run"
@@ -165,7 +174,7 @@ class Card(Scratch):
         done = self.ends(DONE, "tfm", self.write("case.toml", SILT), "--until", "60 s", "-o", run, "--no-picture")
         card, rows = self.card(run), history(run)
         self.assertGreater(card["recovery"]["silt"], 0.999)
-        self.assertRegex(done.stderr, r"(?m)^solids +silt 0 g, sand [\d.]+ g$")
+        self.assertRegex(done.stderr, r"(?m)^solids +silt 0 g, sand [\d.]+ g \(assumed depth ")
         self.assertIs(card["steady"], True)
         self.assertIsNone(card["layers"])
         self.assertIsNotNone(rows["centre_silt_m"][0])
