@@ -15,7 +15,7 @@ OURS = re.compile(r"\bpolybed::")
 # What makes effects and lists them, once: here the lists themselves differ.
 REGISTRIES = re.compile(r"SideForces::SideForces|ParticleForces::ParticleForces|CaseReader::read|make_pair_laws|make_effects|makers::|"
                         r"for_each_called|roles\(\)|rules(_of_keys)?\(|menu_of|effects\(\)|PairLaws::|relevance::(?!FluidConstants)|"
-                        r"core::(Rule|Role|Law|refuse|law_of|is_off|is_law|WrongKeys|Broken)|_GLOBAL__sub_I")
+                        r"core::(Rule|Role|Law|refuse|law_of|Scene::law|is_off|is_law|WrongKeys|Broken)|_GLOBAL__sub_I")
 CONTROL = "polybed::absent::control_kernel(int)"
 LEAST = 1000  # instructions: below it a function is no kernel
 # Share by which the counts of one function may differ: a loop over an array begins by what it lies on in memory, which moves
