@@ -19,7 +19,7 @@ struct BoxDrag {
   double cells = 0;                          ///< per smallest diameter, after rounding to the edge of the box
   double change = 0, imbalance = 0;          ///< for free spheres: drift of the momentum of fluid and spheres
   double steps = 0, sites = 0, seconds = 0;  ///< of fluid and spheres in the box; wall time of the steps
-  std::vector<double> pairs;                 ///< free spheres: PairDistribution::mean()
+  std::vector<double> pairs = {};            ///< free spheres: PairDistribution::mean()
 };
 
 /// Called at intervals with the number of steps and the relative change of the drag; returns false to stop.
