@@ -5,11 +5,8 @@ Does the bed contract as streams find room? NAME, for instance 4-across, chooses
 that is done is not run again, one that was stopped goes on where it was. Prints means over the last third of the time. --read: run
 nothing.
 """
-import argparse
-from pathlib import Path
-
 import numpy as np
-from strips import mean, run, table
+from strips import arguments, mean, run, table
 
 import polybed
 
@@ -86,12 +83,7 @@ def row(name, read):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("program", type=Path)
-    parser.add_argument("runs", type=Path)
-    parser.add_argument("name", nargs="*", choices=[[], *RUNS])
-    parser.add_argument("--read", action="store_true", help="run nothing, read what is there, finished or not")
-    given = parser.parse_args()
+    given = arguments(__doc__, RUNS)
     given.runs.mkdir(parents=True, exist_ok=True)
     (given.runs / "case.toml").write_text(CASE)
     rows = []

@@ -1,4 +1,5 @@
 """Runs of narrow strips of the thesis's columns that may be stopped at any time and given again."""
+import argparse
 import json
 import subprocess
 import sys
@@ -8,6 +9,16 @@ import numpy as np
 
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "python"))
+
+
+def arguments(description, names):
+    """Those of a script that makes runs of some names, or reads them."""
+    parser = argparse.ArgumentParser(description=description, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("program", type=Path)
+    parser.add_argument("runs", type=Path)
+    parser.add_argument("name", nargs="*", choices=[[], *names])
+    parser.add_argument("--read", action="store_true", help="run nothing, read what is there, finished or not")
+    return parser.parse_args()
 
 
 def finished(directory):

@@ -4,10 +4,7 @@
 NAME, for instance C-27, chooses; without it all are run one after the other: days. A run that is done is not run again, one that was
 stopped goes on where it was. Prints how far each is, and means over the last quarter of its time. --read: run nothing.
 """
-import argparse
-from pathlib import Path
-
-from strips import run, table
+from strips import arguments, run, table
 from thesis_systems import ALL, STRIPS, row
 
 import polybed
@@ -35,12 +32,7 @@ def settings(system, velocity, until, own):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("program", type=Path)
-    parser.add_argument("runs", type=Path)
-    parser.add_argument("name", nargs="*", choices=[[], *COLUMNS])
-    parser.add_argument("--read", action="store_true", help="run nothing, read what is there, finished or not")
-    given = parser.parse_args()
+    given = arguments(__doc__, COLUMNS)
     rows = []
     for name in given.name or COLUMNS:
         system, velocity, until, own = COLUMNS[name]
