@@ -76,15 +76,6 @@ inline double mean_speed(const dem::Model& model) {
   return sum / double(model.particles().owned);
 }
 
-/// Solids in all cells, m3.
-inline double solids_of(const dem::Model& model) {
-  const dem::Coupling::Column column = model.coupling()->column();
-  double sum = 0;
-  for (std::size_t c = 0; c < column.fraction[0].size(); ++c)
-    sum += column.grid.metric->volume[c] * column.fraction[0][c];
-  return sum * column.grid.cell_volume();
-}
-
 /// Unevenly strewn spheres of the fluid's density: nothing moves, whatever is cut.
 inline void expect_a_neutral_suspension_to_stay(const core::Taper& profile) {
   for_each_kernel([&](core::Kernel kernel, const std::array<int, 3>& cells) {

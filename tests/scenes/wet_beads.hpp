@@ -87,4 +87,16 @@ struct Sphere {
   }
 };
 
+/// Solids in all cells, m3.
+inline double solids_of(const dem::Model& model) {
+  const dem::Coupling::Column column = model.coupling()->column();
+  double sum = 0;
+  for (const core::Field& phi : column.fraction)
+    core::for_each_row(column.grid, [&](core::Index begin, core::Index end) {
+      for (auto c = std::size_t(begin); c < std::size_t(end); ++c)
+        sum += phi[c] * (column.grid.metric ? column.grid.metric->volume[c] : 1);
+    });
+  return sum * column.grid.cell_volume();
+}
+
 }  // namespace polybed::scenes

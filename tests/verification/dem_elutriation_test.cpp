@@ -42,17 +42,6 @@ TEST(DemElutriation, TakesOutTheEnergyThatTheFluidGave) {
   EXPECT_EQ(beads.model.coupling()->most_solids(), 0);
 }
 
-/// Solids in all cells, m3.
-double solids_of(const dem::Model& model) {
-  const dem::Coupling::Column column = model.coupling()->column();
-  double sum = 0;
-  for (const core::Field& phi : column.fraction)
-    for (int k = 0; k < column.grid.cells[2]; ++k)
-      for (int j = 0; j < column.grid.cells[1]; ++j)
-        for (int i = 0; i < column.grid.cells[0]; ++i) sum += phi[std::size_t(column.grid.index(i, j, k))];
-  return sum * column.grid.cell_volume();
-}
-
 // Of a glass bead of 1 mm that rises in water the part below the top is in the cells at every step, and it rises all
 // the way: its weight is carried to the end.
 TEST(DemElutriation, CountsAParticleAsFarAsItIsInside) {
