@@ -111,7 +111,7 @@ void expect(const core::Scene& scene, const Slices& slices, const Balance& balan
   if (!(stays > 0)) {
     bed.state = carried(scene);
     bed.leaving.clear();
-    bed.steady.why = "no time foreseen: the fluid carries all solids to the top";
+    bed.steady.why = "the fluid carries all solids to the top";
     return;
   }
   const std::vector<LayerBed> layers = layers_of(scene, slices, share, fluid, gravity);

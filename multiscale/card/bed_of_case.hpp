@@ -61,7 +61,8 @@ struct ExpansionAt {
   std::optional<double> own = {};  ///< by the law of the case, if it is one of them, m/s
 };
 
-/// The least time, s, until a bed can be steady, and what takes it; without a time why none is foreseen.
+/// The least time, s, until a bed can be steady, 0 for one that is from the start, and why; without a time why none is
+/// foreseen.
 struct FirstSteady {
   std::optional<double> least;
   std::string why;

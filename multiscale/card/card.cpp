@@ -193,9 +193,8 @@ std::string bed_text(const BedOfRun& bed) {
 /// When the bed of a case can be steady, and whether its run is too short for that.
 std::string first_steady_text(const core::Scene& scene, const FirstSteady& steady) {
   constexpr double window = 0.75;  // part of a run before the last quarter, which its card uses
-  if (!steady.least)
-    return steady.why +
-           (steady.why.starts_with("no time") ? "; --until steady ends a run once its card says steady" : "");
+  if (!steady.least) return "no time foreseen: " + steady.why + "; --until steady ends a run once its card says steady";
+  if (*steady.least == 0) return "from the start: " + steady.why;
   std::string text = fmt::format("after {} at least: {}", short_time(*steady.least), steady.why);
   if (window * scene.run.until < *steady.least)
     text += fmt::format("; the run ends at {:.4g} s, too early: see --until steady", scene.run.until);

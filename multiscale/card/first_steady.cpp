@@ -36,21 +36,21 @@ FirstSteady first_steady(const core::Scene& scene, const Slices& slices, const B
   const bool gas = !bed.species.front().geldart.empty();
   if (std::any_of(inlet.begin(), inlet.end(), [&](const auto& one) { return one.second != inlet.front().second; }))
     return {inlet.back().first, "the inlet changes until then"};
-  if (!scene.jets.empty()) return {{}, "no time foreseen: a jet moves only the solids on its path"};
-  if (scene.bed.held) return {{}, "from the start: the particles are held"};
-  if (bed.state == Fluidisation::packed && !loose) return {{}, "from the start: the bed stays packed"};
-  if (gas) return {{}, "no time foreseen: the height swings as bubbles form and burst"};
-  if (overflows(scene, bed)) return {{}, "no time foreseen: solids leave over the top"};
-  if (!bed.discharges.empty()) return {{}, "no time foreseen: solids leave through a discharge"};
-  if (bed.no_balance) return {{}, "no time foreseen: by its drag law the fluid carries all solids to the top"};
+  if (!scene.jets.empty()) return {{}, "a jet moves only the solids on its path"};
+  if (scene.bed.held) return {0.0, "the particles are held"};
+  if (bed.state == Fluidisation::packed && !loose) return {0.0, "the bed stays packed"};
+  if (gas) return {{}, "the height swings as bubbles form and burst"};
+  if (overflows(scene, bed)) return {{}, "solids leave over the top"};
+  if (!bed.discharges.empty()) return {{}, "solids leave through a discharge"};
+  if (bed.no_balance) return {{}, "by its drag law the fluid carries all solids to the top"};
   if (scene.bed.start.kind == core::StartKind::list || scene.bed.start.kind == core::StartKind::checkpoint)
-    return {{}, "no time foreseen: the start is read from a file"};
-  if (loose && !bed.leaving.empty()) return {{}, "no time foreseen: the solids that are lifted leave first"};
-  if (!scene.layers.empty() && loose) return {{}, "no time foreseen: layers that start loose"};
+    return {{}, "the start is read from a file"};
+  if (loose && !bed.leaving.empty()) return {{}, "the solids that are lifted leave first"};
+  if (!scene.layers.empty() && loose) return {{}, "the layers start loose"};
   if (!bed.own.height) return {};
   const double end = std::min(*bed.own.height, scene.column.size[1]);
   const std::optional<double> least = moving_time(slices, start, end, *bed.velocity, carried);
-  if (!least) return {{}, "no time foreseen: the fluid is too slow near the top to lift the settled bed"};
+  if (!least) return {{}, "the fluid is too slow near the top to lift the settled bed"};
   if (end < start) return {least, "the top falls as the bed settles through the fluid"};
   const std::string even = bed.top_heavy ? "if each level were even, " : "",
                     by = loose ? "u less the velocity that carries the bed at its start" : "u - u_mf";
