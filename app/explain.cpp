@@ -122,7 +122,7 @@ bool is_of_a_species(const measures::Measure<Source>& measure, const std::string
          word.size() > measure.name.size() + 1 + end.size();
 }
 
-/// A column of any way out as that of the first: "discharge2_m3_s" and "top_sand_kg".
+/// "discharge1_m3_s" for "discharge2_m3_s", likewise for other columns of a way out: one entry explains all of them.
 std::string as_of_first_exit(const std::string& word) {
   return std::regex_replace(word, std::regex("^(discharge[0-9]+|top)_"), "discharge1_");
 }

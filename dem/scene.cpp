@@ -165,7 +165,7 @@ double area_of(core::ColumnFace at, const std::vector<double>& from, const std::
                const core::Column& column) {
   if (from.empty() && !is_side(at)) return column.cross_section(at);
   Vector width = column.size;
-  for (std::size_t n = 0; n < from.size() && n < to.size(); ++n)  // a rule that runs later reports unequal corners
+  for (std::size_t n = 0; n < from.size(); ++n)
     width[std::size_t(axis_along(at, column.dimensions, n))] = to[n] - from[n];
   width[std::size_t(axis_of(at))] = 1;
   return width[0] * width[1] * width[2];
