@@ -1,5 +1,7 @@
 #include "multiscale/estimate/machine.hpp"
 
+#include <fmt/format.h>
+
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
@@ -40,8 +42,6 @@ solids_fraction = 0.62
 start_solids_fraction = 0.3
 [dem]
 greatest_speed = "0.3 m/s"
-[run]
-until = "100 s"
 [tfm]
 rtol = 1e-3
 )";
@@ -64,11 +64,12 @@ name = "none"
 contact = "hertz_mindlin"
 )";
 
-core::Scene scene_in(const std::string& fluid, const std::vector<std::string>& overrides) {
+core::Scene scene_in(const std::string& fluid, double until, std::vector<std::string> overrides) {
+  overrides.push_back(fmt::format("run.until={}", until));
   return core::parse_case(solids + fluid, "the bed that measures the machine", overrides, all_roles(), size_classes);
 }
 
-/// CPU seconds of a step, after some uncounted ones.
+/// CPU seconds of a step, after some uncounted ones, over so many CPU seconds or to the end of the case.
 template <class Model>
 double seconds_of_step(const core::Scene& scene, double seconds) {
   core::Timers timers;
@@ -77,7 +78,8 @@ double seconds_of_step(const core::Scene& scene, double seconds) {
   const double begin = core::cpu_seconds();
   double spent = 0;
   int steps = 0;
-  for (; spent < seconds; ++steps, spent = core::cpu_seconds() - begin) model.step(scene.run.until);
+  for (; spent < seconds && model.time() < scene.run.until; ++steps, spent = core::cpu_seconds() - begin)
+    model.step(scene.run.until);
   return spent / steps;
 }
 
@@ -109,17 +111,18 @@ Machine known_machine() {
   }
 }
 
-Machine measure_machine(double seconds) {
+Machine measure_machine(double seconds, double until) {
   Machine machine;
-  const core::Scene scene = scene_in(liquid, {"tfm.integrator=explicit"});
+  const core::Scene scene = scene_in(liquid, until, {"tfm.integrator=explicit"});
   const double cells = scene.column.cells[0] * scene.column.cells[1], each = seconds / 4;
   machine.explicit_step = seconds_of_step<tfm::Model>(scene, each) / cells;
-  machine.implicit_step = seconds_of_step<tfm::Model>(scene_in(liquid, {"tfm.integrator=implicit"}), each) / cells;
+  machine.implicit_step =
+      seconds_of_step<tfm::Model>(scene_in(liquid, until, {"tfm.integrator=implicit"}), each) / cells;
   const ParticleSpeed shipped;
   const double particles = double(scene.bed.particles[0] + scene.bed.particles[1]);
-  const core::Scene dry = scene_in(no_fluid, {"bed.start_solids_fraction=0.5"});
+  const core::Scene dry = scene_in(no_fluid, until, {"bed.start_solids_fraction=0.5"});
   machine.particles.particle_step = seconds_of_step<dem::Model>(dry, each) / particles;
-  const double step = seconds_of_step<dem::Model>(scene_in(liquid, {"bed.start_solids_fraction=0.5"}), each);
+  const double step = seconds_of_step<dem::Model>(scene_in(liquid, until, {"bed.start_solids_fraction=0.5"}), each);
   const double every = scene.dem.fluid_every.value_or(core::most_fluid_every);
   const double expected = shipped.particle_step_in_fluid * particles + shipped.step +
                           (shipped.fluid_step + shipped.exchange * particles + shipped.cell * cells) / every;

@@ -29,6 +29,10 @@ def too_long(name, text):
     return [f"{name}: {lines} lines, at most {LONGEST}"] if lines > LONGEST and ARGUED not in text[:2000] else []
 
 
+def ill_named(name):
+    return [] if re.fullmatch(r"[\w./-]+", name) else [f"{name}: a file's name is of letters, digits, '.', '_' and '-'"]
+
+
 def left_over(name, text):
     return [f"{name}:{n}: {line.strip()[:80]}" for n, line in enumerate(text.split("\n"), 1)
             if LEFT_OVER.search(line) or MACHINE.search(line)]
@@ -64,11 +68,10 @@ def laws_without_docs():
 
 def self_test():
     assert too_long("a", "x\n" * 401) and not too_long("a", "x\n" * 400)
+    assert ill_named('rule("a")') and not ill_named("docs/a-b_c.md") and not ill_named(".ci/run")
     assert left_over("a", "int x;  // TO" + "DO later") and left_over("a", 'open("/ro' + 'ot/x")')
     assert not left_over("a", "a method, and a/work/b")
     assert printed_elsewhere("core/a.cpp", 'fmt::print(stderr, "a")') and not printed_elsewhere("core/a.cpp", 'core::print("a")')
-
-
     assert opened_elsewhere("core/a.cpp", "std::ifstream file(path);") and opened_elsewhere("python/polybed/a.py", "with open(path) as file:")
     assert opened_elsewhere("python/polybed/a.py", "path.read_text()") and opened_elsewhere("app/a.cpp", "  ::open(path, O_RDONLY)")
     assert not opened_elsewhere("python/polybed/a.py", 'with opened(path) as file, open(other, "w") as copy:')
@@ -77,7 +80,7 @@ def self_test():
 if __name__ == "__main__":
     self_test()
     code = tracked(".hpp", ".cpp")
-    problems = []
+    problems = [problem for path in tracked("") for problem in ill_named(str(path.relative_to(ROOT)))]
     for path in code:
         problems += printed_elsewhere(str(path.relative_to(ROOT)), path.read_text())
     for path in code + [path for path in tracked(".py") if path.is_relative_to(ROOT / "python/polybed")]:

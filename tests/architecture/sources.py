@@ -6,9 +6,9 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 
 
 def tracked(*suffixes):
-    found = subprocess.run(["git", "-C", str(ROOT), "ls-files", "--cached", "--others", "--exclude-standard"], capture_output=True, text=True)
+    found = subprocess.run(["git", "-C", str(ROOT), "ls-files", "-z", "--cached", "--others", "--exclude-standard"], capture_output=True, text=True)
     if found.returncode == 0:
-        names = found.stdout.split("\n")
+        names = found.stdout.split("\0")
     else:
         names = [str(p.relative_to(ROOT)) for p in ROOT.rglob("*") if p.is_file()]
     paths = [ROOT / n for n in names if n.endswith(suffixes) and not n.startswith("build")]

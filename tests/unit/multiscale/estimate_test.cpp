@@ -1,4 +1,4 @@
-// What a prediction says of a part of a run, by hand.
+// What a prediction says of a part of a run, by hand; and measuring a machine that is faster than the beds are long.
 #include "multiscale/estimate/estimate.hpp"
 
 #include <gtest/gtest.h>
@@ -18,6 +18,15 @@ TEST(TimeBand, OfAPartOfARun) {
   EXPECT_EQ(resumed.most, 13.5);
   EXPECT_EQ(begun.expected + resumed.expected, all.expected);
   EXPECT_EQ(all.expected, 10);
+}
+
+// A simulated millisecond takes less than a second of CPU on any machine, so all four beds end before their quarter.
+TEST(Machine, IsMeasuredByBedsThatEndBefore) {
+  const Machine machine = measure_machine(4, 1e-3);
+  EXPECT_GT(machine.explicit_step, 0);
+  EXPECT_GT(machine.implicit_step, 0);
+  EXPECT_GT(machine.particles.particle_step, 0);
+  EXPECT_GT(machine.particles.particle_step_in_fluid, 0);
 }
 
 }  // namespace
