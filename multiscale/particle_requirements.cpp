@@ -154,7 +154,7 @@ double expected_time(const ParticleRequirements& need, const ParticleSpeed& spee
       steps * (count * (need.fluid ? speed.particle_step_in_fluid : speed.particle_step) + speed.step);
   if (!need.fluid) return particles;
   return particles + steps / need.fluid->every *
-                         (speed.fluid_step + speed.exchange * count + speed.cell * double(need.fluid->cells));
+                         fluid_step_seconds(speed, count, double(need.fluid->cells), need.fluid->kernel.width > 0);
 }
 
 void require_memory_for(const core::Scene& scene, const ParticleRequirements& need) {

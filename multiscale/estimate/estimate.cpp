@@ -27,13 +27,13 @@ TimeBand band_of(double seconds, const Spread& spread) {
   return {expected / spread.factor, expected, expected * spread.factor};
 }
 
-/// Of the two-fluid model. What runs took over the cost of their steps (docs/record/cost.md): 0.3 to 1.4 with split
-/// steps, which grow as the bed comes to rest, 0.2 to 8.2 with implicit ones, which start with many Newton iterations
+/// Of the two-fluid model. What runs took over the cost of their steps (docs/record/cost.md): 0.2 to 1.3 with split
+/// steps, which grow as the bed comes to rest, 0.2 to 8 with implicit ones, which start with many Newton iterations
 /// and take longer steps until bubbles form; explicit ones took 0.4 to 2.6 in earlier runs. A probe measures the cost
 /// and the length of the first steps, not of those in the expanded bed.
 Spread tfm_spread(core::TfmIntegrator integrator) {
   using enum core::TfmIntegrator;
-  if (integrator == implicit_steps) return {1.5, 6};
+  if (integrator == implicit_steps) return {2, 6};
   return {integrator == split_steps ? 0.55 : 1, 2.6};
 }
 constexpr double probe_factor = 1.8;
@@ -65,9 +65,13 @@ TimeBand beyond(TimeBand band, double more, double before) {
 double rows(double until, double every) { return every > 0 ? std::floor(until / every * (1 + 1e-9)) + 1 : 2; }
 
 /// CPU seconds for output.
-double output(const core::Scene& scene, const Machine& machine) {
-  return machine.stored_step * rows(scene.run.until, *scene.output.every) +
-         machine.history_row * rows(scene.run.until, *scene.output.history_every);
+double output(const core::Scene& scene, const OutputSpeed& speed, double particles) {
+  const double cells =
+      scene.fluid.present() ? double(scene.column.cells[0]) * scene.column.cells[1] * scene.column.cells[2] : 0;
+  return rows(scene.run.until, *scene.output.every) *
+             (speed.stored + speed.stored_cell * cells + speed.stored_particle * particles) +
+         rows(scene.run.until, *scene.output.history_every) *
+             (speed.row + speed.row_cell * cells + speed.row_particle * particles);
 }
 
 /// CPU seconds before the first step of particles: the program's start, their places, and settling.
@@ -79,14 +83,14 @@ double before_particles(const core::Scene& scene, const Machine& machine, const 
 
 /// A run of the two-fluid model from the time of its steps.
 TimeBand with_start(const TimeBand& steps, const core::Scene& scene, const Machine& machine) {
-  return beyond(steps, machine.start + output(scene, machine), machine.start);
+  return beyond(steps, machine.start + output(scene, machine.output, 0), machine.start);
 }
 
 /// A run of particles, likewise.
 TimeBand with_start(const TimeBand& steps, const core::Scene& scene, const Machine& machine,
                     const ParticleRequirements& need) {
   const double before = before_particles(scene, machine, need);
-  return beyond(steps, before + output(scene, machine), before);
+  return beyond(steps, before + output(scene, machine.output, double(need.count())), before);
 }
 
 /// Bytes of report.html: text, curves, and for each stored time a map of every field and the places of the particles,
@@ -226,7 +230,7 @@ CostEstimate estimate_dem(const core::Scene& scene, const Machine& machine, doub
     const auto [rate, covered] = probed(model, scene.run.until, probe);
     const double spent = core::cpu_seconds() - begin - placed, before = machine.start + placed + need.before;
     e.time = beyond(probed_band(covered, scene.run.until, spent, rate * scene.run.until),
-                    before + output(scene, machine), before);
+                    before + output(scene, machine.output, double(need.count())), before);
     e.basis = fmt::format("a probe of {:.3g} s that reached {:.3g} s", probe, covered);
   }
   e.wall = wall_of(e.time.expected, ranks);

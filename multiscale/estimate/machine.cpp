@@ -12,6 +12,7 @@
 #include "core/timers.hpp"
 #include "core/version.hpp"
 #include "dem/model.hpp"
+#include "multiscale/particle_requirements.hpp"
 #include "multiscale/roles.hpp"
 #include "multiscale/run_record.hpp"
 #include "tfm/model.hpp"
@@ -21,6 +22,7 @@ namespace polybed::multiscale {
 namespace {
 
 constexpr const char* filetype = "polybed machine";
+constexpr int version = 2;
 
 /// System B's two sizes; in the liquid the bed starts at a solids fraction of 0.3, where the fluid suspends it.
 constexpr const char* solids = R"(
@@ -91,6 +93,10 @@ double tfm_step_seconds(const Machine& machine, bool implicit, double cells, std
   return machine.tfm_step + (implicit ? machine.implicit_step : machine.explicit_step) * phases * more * cells;
 }
 
+double fluid_step_seconds(const ParticleSpeed& speed, double particles, double cells, bool diffusion) {
+  return (diffusion ? speed.diffusion : 1) * (speed.fluid_step + speed.exchange * particles + speed.cell * cells);
+}
+
 std::filesystem::path machine_file() {
   const char* cache = std::getenv("XDG_CACHE_HOME");
   const char* home = std::getenv("HOME");
@@ -114,21 +120,24 @@ Machine known_machine() {
 Machine measure_machine(double seconds, double until) {
   Machine machine;
   const core::Scene scene = scene_in(liquid, until, {"tfm.integrator=explicit"});
-  const double cells = scene.column.cells[0] * scene.column.cells[1], each = seconds / 4;
+  const double cells = scene.column.cells[0] * scene.column.cells[1], each = seconds / 5;
   machine.explicit_step = seconds_of_step<tfm::Model>(scene, each) / cells;
   machine.implicit_step =
       seconds_of_step<tfm::Model>(scene_in(liquid, until, {"tfm.integrator=implicit"}), each) / cells;
-  const ParticleSpeed shipped;
+  ParticleSpeed& speed = machine.particles;
   const double particles = double(scene.bed.particles[0] + scene.bed.particles[1]);
-  const core::Scene dry = scene_in(no_fluid, until, {"bed.start_solids_fraction=0.5"});
-  machine.particles.particle_step = seconds_of_step<dem::Model>(dry, each) / particles;
-  const double step = seconds_of_step<dem::Model>(scene_in(liquid, until, {"bed.start_solids_fraction=0.5"}), each);
-  const double every = scene.dem.fluid_every.value_or(core::most_fluid_every);
-  const double expected = shipped.particle_step_in_fluid * particles + shipped.step +
-                          (shipped.fluid_step + shipped.exchange * particles + shipped.cell * cells) / every;
-  machine.particles.particle_step_in_fluid *= step / expected;
-  machine.particles.exchange *= step / expected;
-  machine.particles.cell *= step / expected;
+  const auto of_particles = [&](const char* fluid, int every) {
+    return seconds_of_step<dem::Model>(
+        scene_in(fluid, until, {"bed.start_solids_fraction=0.5", fmt::format("dem.fluid_every={}", every)}), each);
+  };
+  speed.particle_step = of_particles(no_fluid, core::most_fluid_every) / particles;
+  constexpr int often = 2;
+  const double rarely_solved = of_particles(liquid, core::most_fluid_every), often_solved = of_particles(liquid, often);
+  const double fluid = (often_solved - rarely_solved) / (1.0 / often - 1.0 / core::most_fluid_every);
+  const bool diffusion = particle_requirements_of(scene_in(liquid, until, {})).fluid->kernel.width > 0;
+  const double ratio = fluid / fluid_step_seconds(speed, particles, cells, diffusion);
+  speed.particle_step_in_fluid = (often_solved - fluid / often) / particles;
+  for (double* part : {&speed.fluid_step, &speed.exchange, &speed.cell}) *part *= ratio;
   machine.measured = true;
   machine.processor = processor();
   return machine;
@@ -136,7 +145,7 @@ Machine measure_machine(double seconds, double until) {
 
 std::string machine_text(const Machine& machine) {
   return core::json_text({{"filetype", filetype},
-                          {"version", 1},
+                          {"version", version},
                           {"git_commit", core::git_commit()},
                           {"processor", machine.processor},
                           {"explicit_cell_step_s", machine.explicit_step},
@@ -145,14 +154,15 @@ std::string machine_text(const Machine& machine) {
                           {"particle_step_s", machine.particles.particle_step},
                           {"particle_step_in_fluid_s", machine.particles.particle_step_in_fluid},
                           {"exchange_s", machine.particles.exchange},
-                          {"fluid_cell_step_s", machine.particles.cell}});
+                          {"fluid_cell_step_s", machine.particles.cell},
+                          {"fluid_step_s", machine.particles.fluid_step}});
 }
 
 Machine machine_of_text(const std::string& text) {
   const core::Json json = core::parse_json(text);
   const auto number = [&](const char* name) { return core::number_of(core::member_of(json, name)); };
-  if (core::text_of(core::member_of(json, "filetype")) != filetype || number("version") != 1)
-    throw core::FileError("no \"polybed machine\" of version 1");
+  if (core::text_of(core::member_of(json, "filetype")) != filetype || number("version") != version)
+    throw core::FileError(fmt::format("no \"{}\" of version {}", filetype, version));
   Machine machine;
   machine.measured = true;
   machine.processor = core::text_of(core::member_of(json, "processor"));
@@ -163,6 +173,7 @@ Machine machine_of_text(const std::string& text) {
   machine.particles.particle_step_in_fluid = number("particle_step_in_fluid_s");
   machine.particles.exchange = number("exchange_s");
   machine.particles.cell = number("fluid_cell_step_s");
+  machine.particles.fluid_step = number("fluid_step_s");
   return machine;
 }
 
