@@ -90,7 +90,7 @@ void CaseRun::write_card_of(core::Json& json, double actual) {
            {},
            limited_by(),
            left_out_,
-           promise_ ? promise_->kept() : std::nullopt,
+           promise_ ? promise_->met() : std::nullopt,
            ended_ ? std::optional(actual) : std::nullopt,
            prediction_of(ended_ ? simulation().time() : scene_.run.until)};
   try {

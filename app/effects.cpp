@@ -133,16 +133,19 @@ std::string other_line(const relevance::EffectRow& row) {
 }
 
 /// A sum of forces with its allowed value.
-std::string share_text(double sum, double allowed) {
-  return share_of_weight(sum) + (sum > allowed ? " (too much)" : "");
+std::string share_text(const std::vector<relevance::EffectRow>& rows, const std::string& model, double allowed) {
+  const double sum = relevance::neglected_sum(rows, model), least = relevance::neglected_certainly(rows, model);
+  return (least < sum ? share_of_weight(least) + " to " : "") + share_of_weight(sum) +
+         (least > allowed ? " (too much)"
+          : sum > allowed ? " (may be too much)"
+                          : "");
 }
 
 std::string sums_text(const core::Scene& scene, const relevance::Choice& choice) {
   const ModelNames models = models_of(scene);
   const auto by_model = [&](const std::vector<relevance::EffectRow>& rows) {
     std::vector<std::string> sums;
-    for (const std::string& model : models)
-      sums.push_back(model + " " + share_text(relevance::neglected_sum(rows, model), choice.tolerance));
+    for (const std::string& model : models) sums.push_back(model + " " + share_text(rows, model, choice.tolerance));
     return fmt::format("{}\n", fmt::join(sums, ", "));
   };
   std::string text = fmt::format("forces left out, of the weight; {} allowed (chooser.tolerance, {}):\n",

@@ -89,8 +89,10 @@ const std::vector<Term>& terms() {
       {"falls at", "line of the card", "terminal velocity of a single particle of each species in the fluid",
        "a species that falls more slowly than the inlet's velocity is carried out"},
       {"left out", "line of the card",
-       "greatest sum of the forces that the model or the case leaves out, over the weight of a particle",
-       "above chooser.tolerance: polybed effects names the forces and the lines for the case"},
+       "sum of the forces that the model or the case leaves out, over the weight of a particle: the part that is "
+       "certain, and the greatest",
+       "certain part above chooser.tolerance: polybed effects names the forces and the lines for the case; only the "
+       "greatest: chooser.monitor = \"warn\" measures what a run meets"},
       {"recovery", "member of the card", "share of a species that has left, of its mass at the start and fed", ""},
       {"discharge", "line of the card",
        "mass per time out of dem.opening, between a tenth and nine tenths of what has left", ""},

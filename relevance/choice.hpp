@@ -41,6 +41,9 @@ void decide(std::vector<EffectRow>& rows, const DecisionRule& rule);
 [[nodiscard]] double neglected_sum(const std::vector<EffectRow>& rows, const std::string& model);
 [[nodiscard]] double neglected_up_to(const std::vector<EffectRow>& rows, const std::string& model);
 
+/// The certain part of neglected_sum(): the lower end of each band.
+[[nodiscard]] double neglected_certainly(const std::vector<EffectRow>& rows, const std::string& model);
+
 struct Choice {
   std::vector<EffectRow> rows;     ///< the recommendation, whatever the case turns off
   std::vector<EffectRow> of_case;  ///< the case: decided by its roles, with its open roles chosen accordingly

@@ -175,6 +175,16 @@ double neglected_sum(const std::vector<EffectRow>& rows, const std::string& mode
   return sum;
 }
 
+double neglected_certainly(const std::vector<EffectRow>& rows, const std::string& model) {
+  double sum = 0;
+  for (const EffectRow& row : rows) {
+    if (!is_left_out(row, model)) continue;
+    const double whole = counted(row, row.bound);
+    sum += row.band ? std::min(whole, row.band->least) : whole;
+  }
+  return sum;
+}
+
 double neglected_up_to(const std::vector<EffectRow>& rows, const std::string& model) {
   double sum = 0;
   for (const EffectRow& row : rows)

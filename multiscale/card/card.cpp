@@ -60,7 +60,24 @@ core::Json drift_of(const BedOfRun& bed) {
   return {{"window_s", bed.window}, {"measures", measures}, {"lines", drift_lines(bed)}};
 }
 
-bool matters(const LeftOut& left_out) { return left_out.sum > left_out.promise; }
+bool matters(const LeftOut& left_out) { return left_out.least > left_out.promise; }
+bool may_matter(const LeftOut& left_out) { return left_out.sum > left_out.promise; }
+
+/// "4.2 %", or "0.4 % to 4.2 %"; a sum that rounds to what is allowed has a third digit.
+std::string share_text(const LeftOut& left_out) {
+  const std::string least = share_of_weight(left_out.least), most = share_of_weight(left_out.sum);
+  const bool alike = most == share_of_weight(left_out.promise) && may_matter(left_out);
+  const std::string end = alike ? fmt::format("{:.3g} %", 100 * left_out.sum) : most;
+  return least == most ? end : least + " to " + end;
+}
+
+/// What a run met of it, after what the case alone says.
+std::string met_text(const ForcesMet& met, double promise) {
+  return fmt::format("; met in the run: {} for 99 of 100 samples, {}", share_of_weight(met.share),
+                     !met.kept    ? "above the " + relevance::percent(promise)
+                     : !met.whole ? "but not all of them can be evaluated"
+                                  : "which does not matter");
+}
 
 // ---- words
 
@@ -237,12 +254,10 @@ std::string computing_text(const TimeBand& time) {
 }
 
 std::string left_out_text(const LeftOut& left_out) {
-  const std::string rounded = share_of_weight(left_out.sum);
-  const bool alike = rounded == share_of_weight(left_out.promise) && matters(left_out);
-  std::string text = "forces of " + (alike ? fmt::format("{:.3g} %", 100 * left_out.sum) : rounded) + " of the weight";
-  if (!matters(left_out))
-    return text + ", within the " + relevance::percent(left_out.promise) + " allowed: does not matter";
-  text += ", above the " + relevance::percent(left_out.promise) + " allowed: matters";
+  const std::string allowed = relevance::percent(left_out.promise) + " allowed: ";
+  std::string text = "forces of " + share_text(left_out) + " of the weight, ";
+  if (!may_matter(left_out)) return text + "within the " + allowed + "does not matter";
+  text += matters(left_out) ? "above the " + allowed + "matters" : allowed + "may matter";
   for (const std::string& line : remedies(left_out)) text += "; " + line;
   return text;
 }
@@ -375,8 +390,7 @@ std::vector<std::string> result_lines(const Card& card) {
   if (seen.height || seen.steady) lines.push_back(card_line("steady", steady_text(seen)));
   if (!card.limited_by.empty()) lines.push_back(card_line("step", "limited by " + card.limited_by));
   std::string left_out = left_out_text(card.left_out);
-  if (card.in_bound && !*card.in_bound && !matters(card.left_out))
-    left_out += "; the run went beyond it: see neglected in run.json";
+  if (card.met) left_out += met_text(*card.met, card.left_out.promise);
   lines.push_back(card_line("left out", left_out));
   if (card.taken)
     lines.push_back(card_line("time", fmt::format("{} of computing, predicted {} ({} to {})", short_time(*card.taken),

@@ -8,6 +8,7 @@
 #include "multiscale/card/bed_of_case.hpp"
 #include "multiscale/card/bed_of_run.hpp"
 #include "multiscale/effects/left_out.hpp"
+#include "multiscale/effects/neglected.hpp"
 #include "multiscale/estimate/estimate.hpp"
 
 namespace polybed::multiscale {
@@ -17,7 +18,7 @@ struct Card {
   BedOfRun seen;
   std::string limited_by;  ///< the limit of most steps; empty: no step yet
   LeftOut left_out;
-  std::optional<bool> in_bound;  ///< from the run's encounters: the neglected effects stay within chooser.tolerance
+  std::optional<ForcesMet> met;  ///< neglected; empty: no monitor, or none within the range of its laws
   std::optional<double> taken;   ///< CPU s; empty: it still runs
   TimeBand predicted;
 };

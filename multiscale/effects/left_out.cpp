@@ -107,6 +107,7 @@ LeftOut left_out(const core::Scene& scene, const std::string& model) {
   all.purpose = core::name_of(scene.chooser.purpose);
   all.promise = choice.tolerance;
   all.sum = relevance::neglected_sum(choice.of_case, model);
+  all.least = relevance::neglected_certainly(choice.of_case, model);
   all.up_to = relevance::neglected_up_to(choice.of_case, model);
   for (const relevance::EffectRow& row : choice.of_case)
     if (const std::string why = why_left_out(row, model); !why.empty())
@@ -169,8 +170,13 @@ void write_left_out(core::Json& json, const LeftOut& left_out) {
   }
   core::Json called_for = core::Json::array();
   for (const LeftOutEffect& one : left_out.called_for) called_for.push_back(one.row.effect);
-  json["neglected"] = {{"called_for", called_for}, {"sum", left_out.sum},         {"promise", left_out.promise},
-                       {"up_to", left_out.up_to},  {"purpose", left_out.purpose}, {"rows", rows}};
+  json["neglected"] = {{"called_for", called_for},
+                       {"sum", left_out.sum},
+                       {"least", left_out.least},
+                       {"promise", left_out.promise},
+                       {"up_to", left_out.up_to},
+                       {"purpose", left_out.purpose},
+                       {"rows", rows}};
 }
 
 std::string called_for_line(const LeftOut& left_out) {

@@ -24,6 +24,7 @@ struct LeftOut {
   std::string purpose;  ///< "steady" or "transient": whether acceleration effects count
   double promise = 0;   ///< chooser.tolerance
   double sum = 0;       ///< of the bounds for forces, drag, stress and exchange, as a share of the buoyant weight
+  double least = 0;     ///< the same from the lower ends of uncertain bounds
   double up_to = 0;     ///< the same on the scales that a run can reach
   std::vector<LeftOutEffect> effects;
   /// Those of them that the scene needs and this model has laws for: off by the case, largest share first.

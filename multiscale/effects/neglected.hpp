@@ -45,6 +45,13 @@ struct Observed {
   [[nodiscard]] double percentile() const;
 };
 
+/// The sum of the neglected forces that a run met.
+struct ForcesMet {
+  double share;  ///< of the weight, for 99 of 100 encounters
+  bool kept;     ///< within chooser.tolerance
+  bool whole;    ///< all of them can be evaluated
+};
+
 class Neglected {
  public:
   /// \param model  "tfm" or "dem": effects without a law in the model are neglected whatever the case says
@@ -70,6 +77,11 @@ class Neglected {
   [[nodiscard]] std::optional<bool> kept() const {
     if (sum().count == 0) return std::nullopt;
     return 100 * sum().above <= sum().count;
+  }
+  /// The same with its share of the weight.
+  [[nodiscard]] std::optional<ForcesMet> met() const {
+    if (!kept()) return std::nullopt;
+    return ForcesMet{sum().percentile(), *kept(), not_evaluated_.empty()};
   }
 
  private:

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -44,6 +45,21 @@ TEST(LeftOut, AShareAboveTheWeightHasNoNumber) {
   EXPECT_EQ(share_of_weight(0.064), "6.4 %");
   EXPECT_EQ(share_of_weight(1), "100 %");
   EXPECT_EQ(share_of_weight(4.1), "over 100 %");
+}
+
+// The certain part takes the lower end of each band: of lift and of the Magnus force nothing, of the rest its bound.
+TEST(LeftOut, CountsTheLowerEndsOfBandsAsCertain) {
+  const LeftOut all = left_out(scene_of(), "tfm");
+  double certain = 0, greatest = 0;
+  for (const LeftOutEffect& one : all.effects) {
+    if (!one.row.summed && !one.row.share_off) continue;
+    const double bound = one.bound.value_or(0);
+    greatest += bound;
+    certain += one.row.band ? std::min(bound, one.row.band->least) : bound;
+  }
+  EXPECT_NEAR(all.sum, greatest, 1e-15);
+  EXPECT_NEAR(all.least, certain, 1e-15);
+  EXPECT_LT(all.least, all.sum);
 }
 
 TEST(LeftOut, IsOfTheModelThatRuns) {
