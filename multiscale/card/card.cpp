@@ -71,12 +71,14 @@ std::string share_text(const LeftOut& left_out) {
   return least == most ? end : least + " to " + end;
 }
 
-/// What a run met of it, after what the case alone says.
-std::string met_text(const ForcesMet& met, double promise) {
-  return fmt::format("; met in the run: {} for 99 of 100 samples, {}", share_of_weight(met.share),
-                     !met.kept    ? "above the " + relevance::percent(promise)
-                     : !met.whole ? "but not all of them can be evaluated"
-                                  : "which does not matter");
+/// What a run met of it, and with the bounds of what its monitor cannot evaluate.
+std::string met_text(const ForcesMet& met, const LeftOut& left_out) {
+  double all = met.share;
+  for (const LeftOutEffect& one : left_out.effects)
+    if ((one.row.summed || one.row.share_off) && !std::count(met.effects.begin(), met.effects.end(), one.row.effect))
+      all += one.bound.value_or(0);
+  return fmt::format("; in the run {} of {}, with the rest {}: {}", each(met.effects), share_of_weight(met.share),
+                     share_of_weight(all), all > left_out.promise ? "matters" : "does not matter");
 }
 
 // ---- words
@@ -390,7 +392,7 @@ std::vector<std::string> result_lines(const Card& card) {
   if (seen.height || seen.steady) lines.push_back(card_line("steady", steady_text(seen)));
   if (!card.limited_by.empty()) lines.push_back(card_line("step", "limited by " + card.limited_by));
   std::string left_out = left_out_text(card.left_out);
-  if (card.met) left_out += met_text(*card.met, card.left_out.promise);
+  if (card.met) left_out += met_text(*card.met, card.left_out);
   lines.push_back(card_line("left out", left_out));
   if (card.taken)
     lines.push_back(card_line("time", fmt::format("{} of computing, predicted {} ({} to {})", short_time(*card.taken),

@@ -98,6 +98,14 @@ void Neglected::see(const Encounter& met) {
   whole ? observed_.back().add(sum, met, tolerance_) : void(observed_.back().outside += met.weight);
 }
 
+std::optional<ForcesMet> Neglected::met() const {
+  if (!kept()) return std::nullopt;
+  ForcesMet met{{}, sum().percentile()};
+  for (const Observed& one : observed_)
+    if (!one.of_all) met.effects.push_back(one.effect);
+  return met;
+}
+
 void Neglected::gather(const core::Ranks* ranks) {
   if (ranks == nullptr) return;
   for (Observed& one : observed_) {

@@ -47,9 +47,8 @@ struct Observed {
 
 /// The sum of the neglected forces that a run met.
 struct ForcesMet {
-  double share;  ///< of the weight, for 99 of 100 encounters
-  bool kept;     ///< within chooser.tolerance
-  bool whole;    ///< all of them can be evaluated
+  std::vector<std::string> effects;  ///< those that can be evaluated
+  double share;                      ///< of the weight, for 99 of 100 encounters
 };
 
 class Neglected {
@@ -78,11 +77,7 @@ class Neglected {
     if (sum().count == 0) return std::nullopt;
     return 100 * sum().above <= sum().count;
   }
-  /// The same with its share of the weight.
-  [[nodiscard]] std::optional<ForcesMet> met() const {
-    if (!kept()) return std::nullopt;
-    return ForcesMet{sum().percentile(), *kept(), not_evaluated_.empty()};
-  }
+  [[nodiscard]] std::optional<ForcesMet> met() const;
 
  private:
   core::Scene scene_;
