@@ -50,7 +50,7 @@ def draw(found, _folder=None):
 
 
 OUTCOMES = {"bracket": "the range is narrow enough", "indistinct": "what is left is within the uncertainty of the runs",
-            "not found": "no change of places in the range"}
+            "not found": "no change of places in the range", "filled": "no change of places before the bed fills the column"}
 
 
 def on_ranks(ranks):

@@ -53,7 +53,9 @@ class RunsOfModel:
         self.integrators.append(integrator)
         if speaks(self.request):
             say(report.line(self.name, velocity, None if source is None else self.velocities[source], made, reused))
-        return Mean(made["centre_difference"], made["error"])
+        column = case.keys["column"]
+        below_top = column["size"][1] * (1 - 1 / column["cells"][1])
+        return Mean(made["centre_difference"], made["error"], made["bed_height_m"] >= below_top)
 
     def start_of(self, velocity, source):
         """Overrides for the start. A run that continues another begins with its velocity, and keeps its integrator."""

@@ -103,7 +103,8 @@ def finding(scan, species):
     """What a scan has found, a line each: the inversion, the band of its table, and where beds are mixed."""
     found, lines, mixed = scan.found, [], mixed_interval(scan)
     if found.velocity is None:
-        lines.append(f"no inversion between {mm(found.low)} and {mm(found.high)} mm/s")
+        full = ", where the bed fills the column: a taller one tells more" if found.outcome == "filled" else ""
+        lines.append(f"no inversion between {mm(found.low)} and {mm(found.high)} mm/s{full}")
     else:
         below, above = species if found.slope > 0 else reversed(species)  # the centre of the second less that of the first grows
         lines.append(f"inversion at {mm(found.velocity)} +-{1e3 * found.error:.1g} mm/s, between {mm(found.low)} and {mm(found.high)} (ended by "

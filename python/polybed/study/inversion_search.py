@@ -14,6 +14,7 @@ class Mean(NamedTuple):
     """Time mean of the centres' difference over the window of a run."""
     value: float
     error: float  # half-width of its 95 % interval, which stands for two standard errors
+    filled: bool = False  # the bed reaches the top of the column: no faster run tells more
 
     @property
     def certain(self):
@@ -41,7 +42,7 @@ def known(outcome, low, high, velocity, error):
 
 @dataclass
 class Found:
-    outcome: str  # bracket: narrow enough | indistinct: within the noise from both sides | not found
+    outcome: str  # bracket: narrow enough | indistinct: within the noise from both sides | not found | filled: the column
     steps: list  # in the order in which they were made
     low: float  # the bracket, or the range that was searched, m/s
     high: float
@@ -77,6 +78,8 @@ class Search:
                 return True
             low, high = self.low.mean, self.high.mean
             up = abs(high.value) < abs(low.value) if high.certain == low.certain else not high.certain
+            if up and self.high.mean.filled:
+                return False
             former = self.high if up else self.low
             end = self.at(former.velocity * WIDENING if up else former.velocity / WIDENING, former.run)
             # a zero that lies between the former end and the new one is enclosed by these two
@@ -141,4 +144,4 @@ def search(low, high, run):
     of = Search(run)
     of.low = of.at(low, None)
     of.high = of.at(high, of.low.run)
-    return of.narrow() if of.enclose() else of.found("not found")
+    return of.narrow() if of.enclose() else of.found("filled" if of.high.mean.filled else "not found")

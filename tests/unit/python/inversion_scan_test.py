@@ -82,6 +82,12 @@ class Search(unittest.TestCase):
         self.assertIsNone(found.velocity)
         self.assertEqual(len(found.steps), 8)  # two ends, each widened in turn, six times in all
 
+    def test_does_not_search_where_the_bed_fills_the_column(self):
+        found = search(1, 2, lambda velocity, source: Mean(4 - velocity, 0.01, velocity > 2.2))
+        self.assertEqual(found.outcome, "filled")
+        self.assertEqual([step.velocity for step in found.steps], [1, 2, 2.5])  # one widening fills it
+        self.assertIn("where the bed fills the column", report.finding(scan(None, low=1, high=2.5, outcome="filled"), ["fine", "coarse"])[0])
+
 
 def scan(velocity, error=0.0, low=0.0, high=0.0, model="tfm", outcome="bracket"):
     return report.ScanOfModel(model, Found(outcome, [], low, high, velocity, error, -1.0), [])
