@@ -19,12 +19,16 @@ double solids_height(const core::Bed& bed) { return bed.static_height * bed.soli
 
 namespace {
 
+[[noreturn]] void refuse(const core::Scene& scene, const char* key, const std::string& why) {
+  throw core::StartError(std::vector{scene.places.problem({key}, why)});
+}
+
 /// \param top  of the bed at the start, m
-void require_room(double top, const core::Grid& grid) {
+void require_room(double top, const core::Scene& scene, const core::Grid& grid) {
   const double height = grid.column_height();
   if (top > height * (1 + 1e-12))
-    throw core::StartError(
-        fmt::format("the bed at its start is {:.4g} m high, the column {:.4g} m: enlarge column.size", top, height));
+    refuse(scene, "column.size",
+           fmt::format("the bed at its start is {:.4g} m high, the column {:.4g} m: enlarge column.size", top, height));
 }
 
 /// Open volume of each layer over the area of the bottom, m.
@@ -37,12 +41,13 @@ std::vector<double> layers_of(const core::Grid& grid) {
 
 /// Checks that the layers, between walls inside, contain all the solids.
 /// \param solids  over the bottom, m
-void require_room_between_walls(double solids, const std::vector<double>& column, const core::Grid& grid) {
+void require_room_between_walls(double solids, const std::vector<double>& column, const core::Scene& scene,
+                                const core::Grid& grid) {
   if (!grid.metric || !grid.metric->walls) return;
   const std::vector<double> layers = layers_of(grid);
   const double placed = std::inner_product(layers.begin(), layers.end(), column.begin(), 0.0);
   if (placed < solids * (1 - 1e-9))
-    throw core::StartError("the bed at its start does not fit beside [[wall]]: enlarge column.size");
+    refuse(scene, "column.size", "the bed at its start does not fit beside [[wall]]: enlarge column.size");
 }
 
 /// Solids fraction of cells in a column that is filled evenly from the bottom; the topmost cell gets the remainder.
@@ -179,7 +184,7 @@ void add_bed_part(const core::Grid& grid, const core::Column& column, const core
 void fill_parts(const core::Scene& scene, const core::Grid& grid, fluid::Interphase& solids) {
   const std::vector<core::BedPart> parts = core::start_parts(scene);
   const std::vector<core::Extent> extents = core::stacked(parts, scene.column);
-  require_room(core::top_of(extents), grid);
+  require_room(core::top_of(extents), scene, grid);
   for (core::Field& phi : solids.fraction) std::fill(phi.begin(), phi.end(), 0.0);
   for (std::size_t n = 0; n < parts.size(); ++n)
     if (parts[n].all_solids() > 0) add_bed_part(grid, scene.column, parts[n], extents[n], solids);
@@ -198,20 +203,21 @@ void fill_whole_cells(const core::Scene& scene, const Constants& constants, cons
   const core::Grid& grid = constants.grid;
   if (bed.start.kind == core::StartKind::layered) return fill_parts(scene, grid, solids);
   const double total = scene.column.even_height(bed.static_height) * bed.solids_fraction;
-  require_room(scene.column.filled_height(total / bed.start_solids_fraction), grid);
+  require_room(scene.column.filled_height(total / bed.start_solids_fraction), scene, grid);
   std::vector<double> column;
   if (bed.start.kind == core::StartKind::settled) {
     if (stress == nullptr)
-      throw core::StartError("bed.start = \"settled\" needs a solids_stress in [effects]: nothing else holds a bed up");
+      refuse(scene, "bed.start",
+             "bed.start = \"settled\" needs a solids_stress in [effects]: nothing else holds a bed up");
     double excess = 0;
     for (std::size_t j = 0; j < constants.species(); ++j)
       excess += bed.volume_share[j] * (constants.density[j] - constants.fluid.density);
-    if (excess <= 0) throw core::StartError("bed.start = \"settled\" needs solids heavier than the fluid");
+    if (excess <= 0) refuse(scene, "bed.start", "bed.start = \"settled\" needs solids heavier than the fluid");
     column = settled_column(total, *stress, excess * constants.gravity, grid);
   } else {
     column = even_column(total, bed.start_solids_fraction, layers_of(grid));
   }
-  require_room_between_walls(total, column, grid);
+  require_room_between_walls(total, column, scene, grid);
   const bool uneven = bed.start.kind == core::StartKind::mixed && bed.perturbation > 0 &&
                       grid.column_cells(0) * grid.column_cells(2) > 1;
   for (int y = 0; y < grid.column_cells(1); ++y) {

@@ -106,8 +106,13 @@ Grid grid_of(const Scene& scene, const std::shared_ptr<const Ranks>& ranks) {
   const auto is_whole = [](const InnerWall& wall) { return wall.from.size() == 2 && wall.to.size() == 2; };  // a rule
   const bool cut = std::any_of(scene.walls.begin(), scene.walls.end(), meets_fluid) &&
                    std::all_of(scene.walls.begin(), scene.walls.end(), is_whole);
-  return grid_of(scene.column, ranks, cut ? std::make_shared<std::vector<InnerWall>>(scene.walls) : nullptr,
-                 ducts_of(scene));
+  try {
+    return grid_of(scene.column, ranks, cut ? std::make_shared<std::vector<InnerWall>>(scene.walls) : nullptr,
+                   ducts_of(scene));
+  } catch (const StartError& error) {
+    if (!cut) throw;
+    throw StartError(std::vector{scene.places.problem({"wall.from"}, error.what())});
+  }
 }
 
 Grid grid_of(const Column& column, const std::shared_ptr<const Ranks>& ranks, const InsideWalls& walls,

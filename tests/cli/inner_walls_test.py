@@ -111,7 +111,7 @@ class Hopper(Scratch):
         walls = "wall=[" + ", ".join(f"{{from={a}, to={b}, thickness=0.004}}" for a, b in zip(sides, sides[1:])) + "]"
         for command in ("check", "tfm", "dem"):
             words = [] if command == "check" else ["-o", self.folder / command]
-            self.assertIn("encloses a hollow", self.ends(WRONG_CASE, command, bank, "--set", walls, *words).stderr)
+            self.assertRegex(self.ends(WRONG_CASE, command, bank, "--set", walls, *words).stderr, r"(?m)^.*case\.toml: .*encloses a hollow")
 
     def test_the_resolved_case_keeps_them(self):
         resolved = strict_json(self.ends(DONE, "check", self.write("a.toml", BED + SIDES), "--json").stdout)["case"]
