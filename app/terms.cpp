@@ -93,7 +93,8 @@ const std::vector<Term>& terms() {
        "certain, and the greatest",
        "certain part above chooser.tolerance: polybed effects names the forces and the lines for the case; only the "
        "greatest: chooser.monitor = \"warn\" measures what a run meets"},
-      {"recovery", "member of the card", "share of a species that has left, of its mass at the start and fed", ""},
+      {"recovery", "member of the card", "share of a species that has left, of its mass at the start and fed",
+       "polybed compare: of the feed within its window, if the species is fed there"},
       {"discharge", "line of the card",
        "mass per time out of dem.opening, between a tenth and nine tenths of what has left", ""},
       {"has left", "line of the card", "mass of each species that has left the column, and its share (the recovery)",

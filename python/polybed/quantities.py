@@ -5,6 +5,7 @@ from __future__ import annotations
 import difflib
 import json
 import pathlib
+import re
 from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING, Any
 
@@ -141,4 +142,6 @@ def measure_words(name: str) -> str:
     """What a column of the measures is called in words."""
     if name.startswith("centre_") and name.endswith("_m"):
         return f"centre of {name[len('centre_'):-len('_m')]}"
+    if recovery := re.fullmatch(r"recovery_(?:(top|discharge\d+)_)?(.+)", name):
+        return f"recovery of {recovery[2]}" + (f" by {recovery[1]}" if recovery[1] else "")
     return MEASURES.get(name) or COLUMNS.get(name, {}).get("name", name).replace("_", " ")

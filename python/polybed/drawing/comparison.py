@@ -18,10 +18,12 @@ from polybed.drawing.profiles import shown_top
 from polybed.drawing.style import COLOURS, NAMES, PALE, drop_over_weight, length_unit
 from polybed.files import read_json
 from polybed.page import Html, file_name, listing, markup, page, picture, section, source, table, warnings
+from polybed.quantities import measure_words
 from polybed.read import nearest, read, stored_times
 from polybed.folder import title_of_case
 from polybed.runner import words_of
-from polybed.study.scores import measure_cells, with_error
+from polybed.study.recovery import is_recovery
+from polybed.study.scores import RECOVERY, measure_cells, with_error
 
 LINES = {"tfm": "-", "dem": "--"}
 DOTS = {"tfm": (0, (1, 2)), "dem": (0, (1, 5))}  # of the interface, which no species has a colour for
@@ -159,6 +161,8 @@ SCORES = {"e_H": "bed height: two-fluid model over particles, less 1",
 def score_words(name):
     if name.startswith("profile_"):
         return f"vertical profile of {name[len('profile_'):]}: difference of the models over height, over that of the particles"
+    if is_recovery(name):
+        return f"{measure_words(name)}: difference of the models; the goal is its interval"
     return SCORES.get(name, name)
 
 
@@ -172,8 +176,8 @@ def measures(found):
     rows = [measure_row(name, measure) for name, measure in found["measures"].items()]
     folders = [folder_of(found["models"][model]) for model in ("tfm", "dem")]
     return table(["", "two-fluid", "particles", "difference", "from"], rows) + source(
-        f"time means from {found['window']['begin_s']:.4g} to {found['window']['end_s']:.4g} s, with the half-width of their "
-        "95 % interval; files of " + Html(" and of ").join(folders))
+        f"time means from {found['window']['begin_s']:.4g} to {found['window']['end_s']:.4g} s, recoveries of what is fed then or else of all until its end, with the half-width "
+        "of their 95 % interval; files of " + Html(" and of ").join(folders))
 
 
 def scores(found):
@@ -181,7 +185,8 @@ def scores(found):
     for name, score in found["scores"].items():
         if name == "order":
             continue
-        verdict = {True: "reached", False: Html('<span class="missed">missed</span>'), None: ""}[score["reached"]]
+        undecided = RECOVERY[None] if is_recovery(name) else ""
+        verdict = {True: "reached", False: Html('<span class="missed">missed</span>'), None: undecided}[score["reached"]]
         rows.append([score_words(name), with_error(score["value"], score["error"]), with_error(score["goal"]) if score["goal"] else "", verdict])
     order = found["scores"]["order"]
     top = [f"{NAMES[model]}: {order[model]['species']}" + ("" if order[model]["certain"] else " (within the uncertainty)")

@@ -10,6 +10,7 @@ from polybed.folder import drift_lines
 from polybed.quantities import measure_words, unit_of_column
 from polybed.read import kinds_among
 from polybed.study.measured import centre_column, means_of
+from polybed.study.recovery import is_recovery, recoveries
 from polybed.texts import fitting
 
 ENOUGH = 30  # autocorrelation times in a window
@@ -86,13 +87,22 @@ def height_score(tfm, dem):
     return score(quotient - 1, error, GOAL)
 
 
+def recovery_score(of):
+    """The goal is the interval of the difference. Without one it is the least that it can be, that of the particles, and a greater difference is
+    undecided."""
+    known = of["difference_error"] is not None
+    found = score(of["difference"], of["difference_error"], of["difference_error"] if known else of["dem_error"])
+    return found if known or found["reached"] else found | {"reached": None}
+
+
 def scores_of(means, measures, distances, species, kinds):
-    """Scores by name, and the order of the layers. means: by model and name; kinds: species with their classes as one"""
+    """Scores by name, and the order of the layers. means: by model and name; kinds: species with their classes as one."""
     found = {"e_H": height_score(*(of["bed_height_m"] for of in means.values()))}
     if len(kinds) > 1:
         b = measures["centre_difference"]
         found |= {"e_b": score(b["difference"], b["difference_error"], GOAL), "D1": distance_score(distances.get("composition"), GOAL)}
     found |= {f"profile_{name}": distance_score(distances.get(f"profile_{name}")) for name in species}
+    found |= {name: recovery_score(of) for name, of in measures.items() if is_recovery(name)}
     top = {model: on_top({name: of[centre_column(name)] for name in kinds}) for model, of in means.items()}
     same = top["tfm"]["species"] == top["dem"]["species"] if all(top.values()) else None
     return found | {"order": top | {"same": same}}
@@ -110,6 +120,7 @@ def compare(tfm, dem):
     for model, run in by_model.items() if several else ():
         means[model]["interface_m"] = run.of_profile.get("interface_m")
     measures = {name: measure(means["tfm"][name], means["dem"][name]) for name in means["tfm"]}
+    measures |= {name: measure(*pair) for name, pair in recoveries(tfm, dem, species, window).items()}
     fractions = {model: {f"phi_{name}": {"mean": of["mean"], "error": of["interval"]} for name, of in run.fraction.items()}
                  for model, run in by_model.items()}
     profiles = {model: run.profiles for model, run in by_model.items()}
@@ -174,8 +185,17 @@ def top_text(top):
 SCORES = {"e_H": "e_H  bed height", "e_b": "e_b  distance of centres", "D1": "D1   layering", "u_inv": "u_inv  inversion velocity"}
 
 
+def score_words(name):
+    return measure_words(name) if is_recovery(name) else SCORES.get(name, name)
+
+
+RECOVERY = {True: "within the interval: reached", False: "outside the interval: missed", None: "undecided: no interval of the difference"}
+
+
 def score_line(name, score):
-    line = f"{SCORES.get(name, name):30} {with_error(score['value'], score['error']):>20}"
+    line = f"{score_words(name):30} {with_error(score['value'], score['error']):>20}"
+    if is_recovery(name):
+        return f"{line}   {RECOVERY[score['reached']]}"
     if score["goal"] is None:
         return line
     return line + f"   goal {score['goal']:.2g}" + {True: ": reached", False: ": missed", None: ""}[score["reached"]]

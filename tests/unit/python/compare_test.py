@@ -196,6 +196,54 @@ class Compare(unittest.TestCase):
             self.assertIs(comparison["scores"]["u_inv"]["reached"], True)
             self.assertEqual(comparison["inversion_file"], "scan/inversion.json")
 
+    def leaving(self, out, top, fed):
+        """At rest, with fine beads of 1 mm, 100 at the start, that are fed and leave steadily: numbers until 100 s, and those over the top."""
+        bead = 2500 * np.pi / 6 * 1e-9
+        run, through = at_rest(0.03, 0.06), np.linspace(0, 1, ROWS)
+        for way, number in {"in": fed, "out": out, "top": top, "discharge1": out - top}.items():
+            run.history[f"{way}_fine_kg"] = bead * number * through
+        run.history["mass_fine_kg"] = bead * (100 + (fed - out) * through)
+        run.case = '[[species]]\nname = "fine"\ndiameter = 0.001\ndensity = 2500.0\n'
+        return run
+
+    def recovered(self, c, name, tfm, dem, goal, reached):
+        measure, score = c["measures"][name], c["scores"][name]
+        for found, value in ((measure["tfm"], tfm), (measure["dem"], dem), (score["value"], tfm - dem), (score["goal"], goal)):
+            self.assertAlmostEqual(found, value, delta=1e-6)
+        self.assertIs(score["reached"], reached, name)
+        return scores.score_line(name, score)
+
+    # Of 100 beads 50 have left by the particles, 15 of them over the top. Wilson's half-width with s = 1.959964^2/100 = 0.0384146 is
+    # 1.959964 sqrt(0.25/100 + s/400)/(1 + s) = 0.0961684 at 0.5; at 0.15 it is 1.959964 sqrt(0.1275/100 + s/400)/(1 + s) = 0.0698879, and
+    # its middle is off by 0.35 s/(1 + s) = 0.0129477. The two-fluid model: 0.55 and 0.25.
+    def test_recoveries_of_a_batch_are_judged_by_the_count_of_particles(self):
+        c = compare(self.leaving(55, 25, 0), self.leaving(50, 15, 0))
+        self.assertEqual([name for name in c["measures"] if "recovery" in name],
+                         ["recovery_fine", "recovery_top_fine", "recovery_discharge1_fine"])  # no coarse bead can leave
+        line = self.recovered(c, "recovery_fine", 0.55, 0.5, 0.0961684, True)
+        self.assertRegex(line, r"^recovery of fine +0\.05   within the interval: reached$")
+        line = self.recovered(c, "recovery_top_fine", 0.25, 0.15, 0.0698879 + 0.0129477, None)
+        self.assertRegex(line, r"^recovery of fine by top +0\.1   undecided: no interval of the difference$")
+        self.assertIsNone(c["measures"]["recovery_fine"]["tfm_error"])
+        self.assertIsNone(c["measures"]["recovery_fine"]["difference_error"])
+        none = compare(self.leaving(0, 0, 0), self.leaving(0, 0, 0))
+        self.assertFalse([name for name in none["measures"] if "recovery" in name], "nothing leaves")
+
+    # Half of the feed leaves, but a quarter of the 200 supplied until the end. The outflow of one run swings by half, twice in the window.
+    def test_recoveries_of_a_feed_are_those_of_the_window(self):
+        steady, swings = self.leaving(50, 20, 100), self.leaving(50, 20, 100)
+        c = compare(steady, steady)
+        self.recovered(c, "recovery_fine", 0.5, 0.5, 0, True)
+        out = np.diff(swings.history["out_fine_kg"], prepend=0)
+        out[760:1000] += out[760:1000] * np.where(np.arange(240) % 120 < 60, 0.5, -0.5)
+        swings.history["out_fine_kg"] = np.cumsum(out)
+        c = compare(steady, swings)
+        goal = c["scores"]["recovery_fine"]["goal"]
+        self.assertTrue(0.05 < goal < 0.2, goal)
+        self.recovered(c, "recovery_fine", 0.5, 0.5, goal, True)
+        more = compare(self.leaving(51, 20, 100), steady)
+        self.assertRegex(self.recovered(more, "recovery_fine", 0.51, 0.5, 0, False), "outside the interval: missed$")
+
 
 class Cases(unittest.TestCase):
     def test_keys_that_differ(self):

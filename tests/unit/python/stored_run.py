@@ -11,7 +11,7 @@ class Written:
     """What a run stores: columns of its history and datasets of its profiles, by name."""
 
     def __init__(self, history, profiles=None, drifts=()):
-        self.history, self.profiles, self.drifts = history, profiles, list(drifts)
+        self.history, self.profiles, self.drifts, self.case = history, profiles, list(drifts), ""
 
     def into(self, directory):
         """Writes history.csv and profiles.h5, and returns the run as studies open it."""
@@ -23,4 +23,5 @@ class Written:
             file.attrs.update(filetype="polybed profiles", version=1, git_commit="0")
             for name, values in (self.profiles or {"time_s": np.empty(0), "y_m": [0.5], "phi_a": np.empty((0, 1))}).items():
                 file[name] = values
-        return SimpleNamespace(directory=directory, history=Named("history.csv", self.history), record={"drift": {"lines": self.drifts}})
+        return SimpleNamespace(directory=directory, history=Named("history.csv", self.history),
+                               record={"drift": {"lines": self.drifts}, "case": self.case})
