@@ -31,13 +31,14 @@ constexpr std::array<std::string_view, 6> records{"run.json",       "cost.json",
                                                   "inversion.json", "stability.json", "fuzz.json"};
 
 /// Result files of a run, by the names that every writer uses.
-constexpr std::array<std::string_view, 14> results{"history.csv",       "steps.csv",
+constexpr std::array<std::string_view, 15> results{"history.csv",       "steps.csv",
                                                    "profiles.h5",       "fields.h5",
                                                    "fields.xdmf",       "particles.h5",
                                                    "particles.xdmf",    "checkpoint.h5",
                                                    "checkpoint.h5.new", "checkpoint.previous.h5",
                                                    "picture.png",       "stress_uncertainty.json",
-                                                   "end.json",          "report.html"};
+                                                   "end.json",          "report.html",
+                                                   "ports.vtp"};
 constexpr std::array<std::string_view, 2> folders_of_steps{"fields", "particles"};
 constexpr std::string_view unfinished = ".temporary";
 

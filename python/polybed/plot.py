@@ -112,12 +112,14 @@ def pictures(directory, what=None, time=None, out=None, ending="png", rate=None,
 
 
 def at_end(directory, time=None):
-    """Draws picture.png and makes report.html, as a run does at its end, and returns what to say of them. A picture that cannot be made is
-    an error; of a page that cannot be made the reason is returned."""
+    """Draws picture.png and makes report.html and the ports for ParaView, as a run does at its end, and returns what to say of them. A picture
+    that cannot be made is an error; of a page that cannot be made the reason is returned."""
+    from polybed.report import ports
     from polybed.report.build import told, write
     drawn = picture(directory, time)
     try:
-        return f"{drawn}, {told(*write(directory))}"
+        found = ports.write(directory)
+        return f"{drawn}, {told(*write(directory))}" + (f", {found}" if found else "")
     except FAULTS as error:
         return f"{drawn}; no report.html: {error}"
 

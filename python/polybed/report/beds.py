@@ -183,9 +183,9 @@ def outlines_of(run):
     return [np.array(line, dtype=float).reshape(-1, 3) for line in lines + opening_of(run)]
 
 
-def outlines_of_ports(run):
-    """(name, colour, closed line round a port), on the wall of a round column for one in its side; m."""
-    size, ports = run.particles.size, []
+def outlines_of_ports(run, size):
+    """(name, colour, closed line round a port) in a column of a size, on the wall of a round column for one in its side; m."""
+    ports = []
     is_round = case_of(run.record).get("column", {}).get("shape") == "cylinder"
     for name, colour, axis, low, high in ports_of(run, size):
         a, b = (n for n in range(3) if n != axis)
@@ -220,7 +220,7 @@ def particles_of(run):
     notes = [f"{len(chosen)} of {count} stored times"] if len(chosen) < count else []
     notes += [f"one particle in {share}"] if share > 1 else []
     factor, outlines, names = length_unit(run)[0], outlines_of(run), list(kinds_among(run.particles.species))
-    ports = outlines_of_ports(run)
+    ports = outlines_of_ports(run, run.particles.size)
     size = run.particles.size * factor
     walls = max((float(line[:, 1].max()) * factor for line in outlines + [line for *_, line in ports]), default=0.0)
     size[1] = min(size[1], max(1.1 * found["top"], 0.25 * size[0], walls))  # a bed in a tall column is not to be a strip at the bottom

@@ -14,6 +14,7 @@ import types
 import unittest
 import zlib
 from pathlib import Path
+from xml.etree import ElementTree
 
 import numpy as np
 
@@ -24,7 +25,7 @@ from report_pages import EVIL, Page, add_case, data_of
 
 import polybed
 from polybed.drawing import curves
-from polybed.report import beds, build, sections, series
+from polybed.report import beds, build, ports, sections, series
 
 MOST_BYTES = 10e6  # of a page
 
@@ -233,6 +234,27 @@ class Particles(SampleRun):
             self.assertAlmostEqual(np.hypot(x - 30, z - 30), 30, places=1)
         add_case(self.directory)
         self.assertEqual(data_of(self.page())["particles"]["ports"], [])
+
+    def test_ports_are_written_for_paraview(self):
+        """As VTK's own reader finds them: names from codes of letters that end with a 0, points of each line up to its offset."""
+        jet = '[[jet]]\nat = "left"\nfrom = [0.02]\nto = [0.03]\n[[discharge]]\nat = "bottom"\nfrom = [0.01]\nto = [0.05]\n'
+        add_case(self.directory, case="[column]\nsize = [0.06, 0.2]\n" + jet)
+        arrays = {}
+        piece = ElementTree.parse(ports.write(self.directory)).getroot().find("PolyData/Piece")
+        for array in piece.iter():
+            if array.tag in ("Array", "DataArray"):
+                arrays[array.get("Name") or "points"] = np.array(array.text.split(), float)
+        points, offsets = arrays["points"].reshape(-1, 3), arrays["offsets"].astype(int)
+        self.assertEqual((int(piece.get("NumberOfPoints")), int(piece.get("NumberOfLines"))), (len(points), 2))
+        np.testing.assert_array_equal(arrays["connectivity"], np.arange(len(points)))
+        self.assertEqual(offsets[-1], len(points))
+        self.assertEqual(bytes(arrays["name"].astype(np.uint8)).split(b"\0"), [b"jet1", b"discharge1", b""])
+        self.assertEqual(list(arrays["kind"]), [0, 2])
+        for line, corners in zip(np.split(points, offsets[:-1]), (((0, 0.02, 0), (0, 0.03, 0.008)), ((0.01, 0, 0), (0.05, 0, 0.008)))):
+            np.testing.assert_array_equal(line[0], line[-1])
+            np.testing.assert_allclose([line.min(axis=0), line.max(axis=0)], corners, atol=1e-12)
+        add_case(self.directory)
+        self.assertIsNone(ports.write(self.directory))
 
 
 class Noise:
