@@ -5,6 +5,7 @@
 #include <array>
 #include <nlohmann/json.hpp>
 #include <string_view>
+#include <tuple>
 
 #include "app/commands.hpp"
 #include "app/explain.hpp"
@@ -40,6 +41,7 @@ std::string after(const std::string& text, const std::string& front) {
   return rest;
 }
 
+/// All of a folder of templates, or those that say so where they name the time.
 std::vector<KnownCase> cases_in(const fs::path& folder, bool templates) {
   std::vector<KnownCase> found;
   std::error_code none;
@@ -47,10 +49,10 @@ std::vector<KnownCase> cases_in(const fs::path& folder, bool templates) {
     const fs::path file = entry.path() / "case.toml";
     if (!fs::exists(file)) continue;
     const std::string text = core::read_text(file);
-    found.push_back(
-        {entry.path().filename().string(), after(text, "title = "), after(text, "# takes "), entry.path(), templates});
+    const std::string marked = after(text, "# a template; takes ");
+    found.push_back({entry.path().filename().string(), after(text, "title = "),
+                     marked.empty() ? after(text, "# takes ") : marked, entry.path(), templates || !marked.empty()});
   }
-  std::sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.name < b.name; });
   return found;
 }
 
@@ -61,6 +63,9 @@ std::vector<KnownCase> known_cases() {
   const std::vector<KnownCase> shipped = cases_in(cases, false);
   all.insert(all.end(), shipped.begin(), shipped.end());
   if (all.empty()) throw core::FileError(fmt::format("{}: no cases there", cases.string()));
+  std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) {
+    return std::tie(b.is_template, a.name) < std::tie(a.is_template, b.name);
+  });
   return all;
 }
 
@@ -97,10 +102,11 @@ void run_new(const fs::path& name, const std::string& from) {
     if (belongs_to_case(entry.path()))
       core::write_atomically(name / entry.path().filename(), core::read_text(entry.path()));
   const std::string file = core::shell_word((name / "case.toml").string());
-  const char* model = chosen.takes.find("polybed tfm") != std::string::npos || chosen.takes.empty() ? "tfm" : "dem";
   core::print("{}: {}\n{}", file, chosen.title, chosen.takes.empty() ? "" : "takes about " + chosen.takes + "\n");
   const std::string program = typed_program();
-  core::print("next:\n  {} check {}\n  {} {} {}\n", program, file, program, model, file);
+  core::print("next:\n  {} check {}\n", program, file);
+  for (const std::string command : {"tfm", "dem", "calibrate"})
+    if (chosen.takes.find("polybed " + command) != std::string::npos) core::print("  {} {} {}\n", program, command, file);
 }
 
 }  // namespace

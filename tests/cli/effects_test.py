@@ -111,7 +111,7 @@ class Table(Scratch):
         hand = self.write("hand.toml", BY_HAND)
         off = self.write("off.toml", BEADS + '[effects]\ndrag = "wen_yu"\nfluid_stress = "none"\n')
         for case, words in ((hand, []), (off, []), (hand, ["--set", "effects.fluid_stress=newtonian"]),
-                            (hand, ["--set", "dem.hamaker_constant=1e-16"]), (ROOT / "cases/templates/classifier/case.toml", []),
+                            (hand, ["--set", "dem.hamaker_constant=1e-16"]), (ROOT / "cases/classifier/case.toml", []),
                             (ROOT / "cases/templates/liquid-bed/case.toml", [])):
             text = self.ends(DONE, "effects", case, *words).stdout
             screen = self.ends(DONE, "check", case, *words).stdout
@@ -154,8 +154,8 @@ class Table(Scratch):
             self.assertEqual((row["model"], row["in_case"]), (advised, law))
             told = self.ends(DONE, "check", case, *words).stdout
             self.assertEqual("made for one sphere" in told, law == "stokes")
-        for name in ("liquid-bed", "classifier", "binary-both-scales", "gas-bed", "sphere"):
-            row = self.table(ROOT / "cases/templates" / name / "case.toml")[1]["drag"]
+        for name in ("templates/liquid-bed", "classifier", "templates/binary-both-scales", "templates/gas-bed", "templates/sphere"):
+            row = self.table(ROOT / "cases" / name / "case.toml")[1]["drag"]
             self.assertEqual(row["model"], row["in_case"], name)
 
     def test_ranges_widen_and_tolerance_decides(self):
