@@ -39,6 +39,11 @@ def ways_of(history, species):
     return {f"recovery_{'' if way == 'out' else way + '_'}{species}": column for way, column in ways.items() if WAY.fullmatch(way)}
 
 
+def by_count(shares, number):
+    """The shares of a number of particles with at least the interval of their count."""
+    return {name: TimeMean(mean, max(error or 0, counted_interval(min(max(mean, 0), 1), number))) for name, (mean, error, *_) in shares.items()}
+
+
 def since_the_start(run, ways, species, window):
     """Shares of what was there and has been fed by the end of the window, without intervals; and kg of that."""
     def at_the_end(column):
@@ -49,31 +54,29 @@ def since_the_start(run, ways, species, window):
 
 
 def of_the_feed(run, ways, species, window):
-    """Shares of what is fed in the window; None if nothing is."""
+    """Shares of what is fed in the window with their intervals, and kg of that; ({}, 0) if nothing is or if there are too few rows."""
     gained = {column: np.diff(within(run.history["time_s"], values, window)) for column, values in run.history.items() if column.endswith("_kg")}
     fed = gained.get(f"in_{species}_kg", np.zeros(1))
     if not fed.sum() > 0:
-        return None
+        return {}, 0
     found = statistics_of(ratios=[(gained[column], fed) for column in ways.values()])["ratios"]
-    return {name: TimeMean(one["value"], one["interval"]) for name, one in zip(ways, found)}
+    return {name: TimeMean(one["value"], one["interval"]) for name, one in zip(ways, found) if one["interval"] is not None}, float(fed.sum())
 
 
 def recoveries(tfm, dem, species, window):
-    """By name the recovery in both runs: none if nothing leaves. A species that is fed in the window has the share of that feed with its interval,
-    another the share of all since the start; that of particles then has the interval of their count, which is a lower bound: particles do not
-    leave independently."""
+    """By name the recovery in both runs: none if nothing leaves. A species that is fed in the window has the share of that feed, another the share
+    of all since the start. That is one number without an interval, but particles have at least that of their count: it is a lower bound, because
+    they do not leave independently."""
     found = {}
     for name in species:
         ways = [ways_of(run.history, name) for run in (tfm, dem)]
         ways = {key: column for key, column in ways[0].items() if key in ways[1]}
         if not ways:
             continue
-        pair = [of_the_feed(run, ways, name, window) for run in (tfm, dem)]
-        if None in pair:
+        (first, _), (second, supplied) = (of_the_feed(run, ways, name, window) for run in (tfm, dem))
+        if not (first and second):
             (first, _), (second, supplied) = (since_the_start(run, ways, name, window) for run in (tfm, dem))
-            with contents_of(f"{dem.directory}/run.json"):
-                second = {key: TimeMean(share, counted_interval(share, supplied / particle_mass(dem.record["case"], name)))
-                          for key, (share, *_) in second.items()}
-            pair = first, second
-        found |= {key: (pair[0][key], pair[1][key]) for key in ways if all(key in one for one in pair)}
+        with contents_of(f"{dem.directory}/run.json"):
+            second = by_count(second, supplied / particle_mass(dem.record["case"], name)) if second else {}
+        found |= {key: (first[key], second[key]) for key in ways if key in first and key in second}
     return found if any(mean.mean > 0 for pair in found.values() for mean in pair) else {}
