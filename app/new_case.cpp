@@ -106,7 +106,8 @@ void run_new(const fs::path& name, const std::string& from) {
   const std::string program = typed_program();
   core::print("next:\n  {} check {}\n", program, file);
   for (const std::string command : {"tfm", "dem", "calibrate"})
-    if (chosen.takes.find("polybed " + command) != std::string::npos) core::print("  {} {} {}\n", program, command, file);
+    if (chosen.takes.find("polybed " + command) != std::string::npos)
+      core::print("  {} {} {}\n", program, command, file);
 }
 
 }  // namespace

@@ -189,7 +189,6 @@ class Particles(SampleRun):
             np.testing.assert_allclose(unpacked(found["radius"], "<f4")[there], 1e3 * step.radius[order], rtol=1e-6)
             np.testing.assert_array_equal(unpacked(found["species"], np.uint8)[there], step.species[order])
 
-
     def test_walls_and_opening_are_outlined(self):
         """The column is 60 mm wide and 8 mm deep. A slot of 10 mm in the middle, and a wall up to 150 mm, far above the particles."""
         wall = '[[wall]]\nfrom = [0.0, 0.15]\nto = [0.02, 0.01]\n[dem]\nopening = 0.01\n'
@@ -239,11 +238,8 @@ class Particles(SampleRun):
         """As VTK's own reader finds them: names from codes of letters that end with a 0, points of each line up to its offset."""
         jet = '[[jet]]\nat = "left"\nfrom = [0.02]\nto = [0.03]\n[[discharge]]\nat = "bottom"\nfrom = [0.01]\nto = [0.05]\n'
         add_case(self.directory, case="[column]\nsize = [0.06, 0.2]\n" + jet)
-        arrays = {}
         piece = ElementTree.parse(ports.write(self.directory)).getroot().find("PolyData/Piece")
-        for array in piece.iter():
-            if array.tag in ("Array", "DataArray"):
-                arrays[array.get("Name") or "points"] = np.array(array.text.split(), float)
+        arrays = {array.get("Name", "points"): np.array(array.text.split(), float) for array in piece.iter() if array.get("format")}
         points, offsets = arrays["points"].reshape(-1, 3), arrays["offsets"].astype(int)
         self.assertEqual((int(piece.get("NumberOfPoints")), int(piece.get("NumberOfLines"))), (len(points), 2))
         np.testing.assert_array_equal(arrays["connectivity"], np.arange(len(points)))
