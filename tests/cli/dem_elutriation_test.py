@@ -85,15 +85,18 @@ class Elutriation(Scratch):
             self.assertEqual(same_bits(self.folder / "whole" / name, self.folder / "cut" / name), [])
         self.assertEqual((self.folder / "whole/history.csv").read_text(), (self.folder / "cut/history.csv").read_text())
 
-    def test_both_models_run_the_case(self):
+    def test_both_models_are_compared_by_what_has_left(self):
         case = self.write("case.toml", CASE)
-        continuum = ["--set", "effects.solids_stress=frictional", "--until", "20 ms"]
-        self.ends(DONE, "tfm", case, "--quiet", *continuum, "-o", self.folder / "tfm")
-        self.dem("dem", "--until", "20 ms")
-        counted = [{name for name in history(self.folder / model) if name.startswith("out_") and name.endswith("_kg")}
-                   for model in ("tfm", "dem")]
-        self.assertEqual(counted[0], {"out_fine_kg", "out_coarse_kg"})
-        self.assertEqual(counted[0], counted[1])
+        self.ends(DONE, "tfm", case, "--quiet", "--set", "effects.solids_stress=frictional", "-o", self.folder / "tfm")
+        self.dem("dem")
+        words = ["compare", case, "--tfm", self.folder / "tfm", "--dem", self.folder / "dem", "-o", self.folder / "both"]
+        found = strict_json(self.ends(DONE, *words, "--no-picture", "--json").stdout)
+        for model in ("tfm", "dem"):
+            card = strict_json((self.folder / model / "run.json").read_text())["card"]
+            for name in NUMBER:
+                self.assertAlmostEqual(found["measures"][f"recovery_{name}"][model], card["recovery"][name], places=5)
+        self.assertRegex(self.ends(DONE, *words).stdout, r"recovery of coarse +0   within the interval: reached")
+        self.assertRegex((self.folder / "both/comparison.html").read_text(), r"recovery of coarse: .*?<td>reached</td>")
 
     def test_under_a_screen_nothing_leaves(self):
         done = self.ends(DONE, "dem", self.write("shut.toml", CASE.replace('outlet = "open"', "")), "--json", "--until", "10 ms", "-o",
