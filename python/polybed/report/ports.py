@@ -3,6 +3,7 @@
 import numpy as np
 
 from polybed.drawing.maps import PORTS
+from polybed.drawing.style import around_axis
 from polybed.files import contents_of, put_text
 from polybed.read import Snapshot
 from polybed.report.beds import outlines_of_ports
@@ -35,5 +36,6 @@ def write(directory):
     run = Snapshot(directory)
     with contents_of(run.directory):
         size = run.particles.size if len(run.particles) else np.array([run.faces[axis][-1] for axis in "xyz"])
+        size = size * [1, 1, 0] if around_axis(run) else size  # ParaView shows such a run in one plane
         ports = [(name, line) for name, _, line in outlines_of_ports(run, size)]
         return put_text(run.directory / NAME, text_of(ports)) if ports else None

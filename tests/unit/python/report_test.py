@@ -241,14 +241,14 @@ class Particles(SampleRun):
         piece = ElementTree.parse(ports.write(self.directory)).getroot().find("PolyData/Piece")
         arrays = {array.get("Name", "points"): np.array(array.text.split(), float) for array in piece.iter() if array.get("format")}
         points, offsets = arrays["points"].reshape(-1, 3), arrays["offsets"].astype(int)
-        self.assertEqual((int(piece.get("NumberOfPoints")), int(piece.get("NumberOfLines"))), (len(points), 2))
-        np.testing.assert_array_equal(arrays["connectivity"], np.arange(len(points)))
-        self.assertEqual(offsets[-1], len(points))
+        self.assertEqual((piece.get("NumberOfPoints"), piece.get("NumberOfLines")), (str(len(points)), "2"))
+        self.assertEqual((*arrays["connectivity"], offsets[-1]), (*range(len(points)), len(points)))
         self.assertEqual(bytes(arrays["name"].astype(np.uint8)).split(b"\0"), [b"jet1", b"discharge1", b""])
         self.assertEqual(list(arrays["kind"]), [0, 2])
         for line, corners in zip(np.split(points, offsets[:-1]), (((0, 0.02, 0), (0, 0.03, 0.008)), ((0.01, 0, 0), (0.05, 0, 0.008)))):
-            np.testing.assert_array_equal(line[0], line[-1])
-            np.testing.assert_allclose([line.min(axis=0), line.max(axis=0)], corners, atol=1e-12)
+            np.testing.assert_allclose([line.min(axis=0), line.max(axis=0), line[0] - line[-1]], [*corners, (0, 0, 0)], atol=1e-12)
+        add_case(self.directory, case='[column]\nshape = "axisymmetric"\nsize = [0.06, 0.2]\n' + jet)
+        self.assertNotIn("0.008", ports.write(self.directory).read_text(), "in the plane in which such a run is stored")
         add_case(self.directory)
         self.assertIsNone(ports.write(self.directory))
 
