@@ -8,7 +8,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 from polybed.drawing import particles
-from polybed.drawing.curves import heights
+from polybed.drawing.curves import heights, recovery
 from polybed.drawing.maps import axes_at, draw_bar, draw_map, fractions, frame, map_size
 from polybed.drawing.history import key
 from polybed.drawing.inversion_scan import commands as scan_command
@@ -108,8 +108,11 @@ def draw_profiles(runs, means):
 
 
 def draw_history(runs, window):
-    """Centres, bed height and interface in time, above the pressure drop over the buoyant weight; the window is shaded."""
-    figure, (upper, lower) = plt.subplots(2, 1, figsize=(8, 5.4), sharex=True, height_ratios=[2, 1], constrained_layout=True)
+    """Centres, bed height and interface in time, above the pressure drop over the buoyant weight and, if some has left, the recovery since the
+    start; the window is shaded."""
+    left = {model: recovery(run.history, run.kinds) for model, run in runs.items()}
+    rows = [2, 1, 1] if any(left.values()) else [2, 1]
+    figure, (upper, lower, *last) = plt.subplots(len(rows), 1, figsize=(8, 1.8 * sum(rows)), sharex=True, height_ratios=rows, constrained_layout=True)
     factor, unit = length_unit(runs["tfm"])
     for model, run in runs.items():
         for line in heights(run, ("bed_height_m", "interface_m"))[0].lines:
@@ -118,13 +121,18 @@ def draw_history(runs, window):
         ratio = drop_over_weight(run.history)
         if ratio is not None:
             lower.plot(run.history["time_s"], ratio, color="black", linestyle=LINES[model], linewidth=1, label=NAMES[model])
-    for axes in (upper, lower):
+        for n, name in enumerate(run.kinds if last else ()):
+            if name in left[model]:
+                last[0].plot(run.history["time_s"], left[model][name], color=colour(n), linestyle=LINES[model], label=f"{name}, {NAMES[model]}")
+    for axes in (upper, lower, *last):
         axes.axvspan(window["begin_s"], window["end_s"], color=PALE, alpha=0.3, linewidth=0, zorder=0)
         key(axes)
     upper.set_ylim(bottom=0)
     upper.set_ylabel(f"height ({unit})")
     lower.set_ylabel("pressure drop\nover weight")
-    lower.set_xlabel("time (s)")
+    for axes in last:
+        axes.set_ylabel("recovery")
+    (*last, lower)[0].set_xlabel("time (s)")
     return figure
 
 
