@@ -5,6 +5,7 @@
 #include <memory>
 #include <numeric>
 
+#include "dem/stress.hpp"
 #include "scenes/dem_scenes.hpp"
 
 namespace polybed::scenes {
@@ -33,11 +34,18 @@ core::Scene silo(std::uint64_t seed) {
   return scene;
 }
 
-/// The cross-section of a silo and what of its edge is wall, m2 and m.
+/// The cross-section of a silo, what of its edge is wall, and the radius of a round one; m2 and m.
 struct Section {
-  double area, edge;
+  double area, edge, radius = 0;
+
+  /// Towards the wall.
+  [[nodiscard]] dem::Vector outwards(double x, double z) const {
+    if (radius == 0) return {1, 0, 0};
+    const double r = std::hypot(x - radius, z - radius);
+    return {(x - radius) / r, 0, (z - radius) / r};
+  }
 };
-constexpr Section slot{width * depth, 2 * depth}, tube{25 * pi * diameter * diameter, 10 * pi*diameter};
+constexpr Section slot{width * depth, 2 * depth}, tube{25 * pi * diameter * diameter, 10 * pi*diameter, 5 * diameter};
 
 /// The same in a tube of ten diameters.
 core::Scene round_silo(std::uint64_t seed) {
@@ -71,21 +79,33 @@ std::vector<WallForce> wall_forces(const dem::Model& model) {
   return forces;
 }
 
+using Slices = std::array<double, slices>;
+
 /// A column in slices from the top down: weight and what the walls carry of it, N, and vertical stress below, Pa.
 struct Column {
   Section section;
   double height = 0, weight = 0, floor = 0;  ///< m, N
-  std::array<double, slices> carried{}, pushed{}, stress{};
+  Slices loads{}, carried{}, pushed{}, stress{};
+  Slices axial{}, outward{};  ///< stresses of the contacts, Pa: sums of branch times force over the volume
 
-  Column(const dem::Model& model, const Section& of) : section(of) {
+  Column(dem::Model& model, const Section& of) : section(of) {
     const dem::Particles& p = model.particles();
     for (std::size_t i = 0; i < p.owned; ++i) height = std::max(height, p.place[i].x[1] + 0.5 * diameter);
     const auto slice = [&](double y) { return std::size_t(std::clamp(int((1 - y / height) * slices), 0, slices - 1)); };
-    std::array<double, slices> loads{};
     for (std::size_t i = 0; i < p.owned; ++i) loads[slice(p.place[i].x[1])] += gravity / p.motion[i].inverse_mass;
+    const double volume = section.area * height / slices;
+    for (const dem::ContactForce& c : dem::contact_forces(model)) {
+      dem::Vector x = p.place[c.first].x;
+      for (std::size_t k = 0; k < 3; ++k) x[k] -= 0.5 * c.length * c.normal[k];
+      const dem::Vector out = section.outwards(x[0], x[2]);
+      const auto along = [&](const dem::Vector& v) { return v[0] * out[0] + v[2] * out[2]; };
+      axial[slice(x[1])] += c.length * c.normal[1] * c.force[1] / volume;
+      outward[slice(x[1])] += c.length * along(c.normal) * along(c.force) / volume;
+    }
     for (const WallForce& f : wall_forces(model)) {
       if (f.floor) floor += f.normal;
       if (f.floor) continue;
+      outward[slice(f.height)] += 0.5 * diameter * f.normal / volume;
       carried[slice(f.height)] += f.up;
       pushed[slice(f.height)] += f.normal;
     }
@@ -116,7 +136,17 @@ struct Column {
 /// W/(2 mu K) between two plates (Janssen, Z. Ver. Dt. Ing. 39, 1895, 1045).
 double janssen(double depth_over_lambda) { return (1 - std::exp(-depth_over_lambda)) / depth_over_lambda; }
 
-using Slices = std::array<double, slices>;
+/// Vertical stress below each slice by Janssen's balance A dsigma/dz = load - edge mu K sigma, by the trapezoidal rule,
+/// with the friction mu that the wall bears in each slice and one K. For one mu it is the exponential above.
+Slices balance(const Slices& loads, const Slices& mu, double k, double depth, const Section& section) {
+  Slices stress{};
+  double above = 0;
+  for (std::size_t s = 0; s < slices; ++s) {
+    const double half = 0.5 * mu[s] * k * section.edge / section.area * depth / slices;
+    above = stress[s] = (above * (1 - half) + loads[s] / section.area) / (1 + half);
+  }
+  return stress;
+}
 
 /// By how much the stress leaves Janssen's, rho g lambda (1 - exp(-z/lambda)), over that on the floor. mu K is that of
 /// all of the wall, so that both meet on the floor: it is the shape that is looked at.
@@ -192,27 +222,51 @@ TEST(DemJanssen, StressAgainstDepth) {
   compare("stress off the exponential, mean of the columns", root_mean_square(mean), 0, 0.016, 1);
 }
 
-// The same in a round silo, and the ratio of horizontal to vertical stress from the upper half of its wall. The three
-// floors bear 8.3, 9.7 and 10.3 % more than Janssen says with it, and the shape is 3.0 to 4.2 % off: mu K is
-// lower below, and of a friction of 0.2 only 0.13 to 0.14 is mobilised. 5 %, the goal for the floor, is not met.
-// Allowed is 1.5 times the worst.
+// A column as deep as lambda leaves 1 - 1/e = 0.632121 of its weight; the rule of 20 slices errs by 1/(12 20^2).
+TEST(DemJanssen, BalanceOfAnEvenWall) {
+  Slices loads, mu;
+  loads.fill(tube.area / slices), mu.fill(0.25);
+  const double depth = tube.area / tube.edge / (0.25 * 0.4);
+  EXPECT_NEAR(balance(loads, mu, 0.4, depth, tube).back(), 0.632121, 0.632121 / 4800);
+}
+
+// The same in a round silo, with the ratio K of outward to axial stress of all contacts. The wall bears a friction of
+// 0.16 half-way down, less near the floor, which does not let particles slide, and hardly any near the surface: 0.12 of
+// 0.2 on the whole. With this friction Janssen's balance has the load of the floor within 1.5 to 2.4 % and the stress
+// at all depths within 4.1 % of it: 5 %, the goal, is met. An exponential with the K and friction of the upper half is
+// 8 to 10 % off.
 TEST(DemJanssen, ARoundSilo) {
   constexpr std::size_t top = 2, middle = 10;
   constexpr int columns = 3;
+  constexpr double goal = 0.05;
   for (std::uint64_t seed = 1; seed <= columns; ++seed) {
     const Column column = settled(round_silo(seed), tube);
     const std::string run = fmt::format(" of column {}", seed);
     compare("floor and walls over the weight" + run, (column.floor + column.all_carried()) / column.weight, 1, 1e-3);
-    const double expected = janssen(column.height / column.decay(top, middle)), share = column.floor / column.weight;
-    compare("share of the floor" + run, share, expected, 0.155);
+    const auto sum = [](const Slices& a, std::size_t from = 0, std::size_t to = slices) {
+      return std::accumulate(a.begin() + long(from), a.begin() + long(to), 0.0);
+    };
+    // Without the lowest slice, whose contacts with the floor are not counted. Measured: 0.13 %.
+    double between = 0;
+    for (std::size_t s = top; s < slices - 1; ++s) between += 0.5 * (column.stress[s - 1] + column.stress[s]);
+    compare("stress of the contacts over that of the balance" + run, sum(column.axial, top, slices - 1) / between, 1,
+            0.002);
+    const double k = sum(column.outward) / sum(column.axial);
+    Slices mu{};
+    for (std::size_t s = 0; s < slices; ++s) mu[s] = column.carried[s] / column.pushed[s];
+    const Slices expected = balance(column.loads, mu, k, column.height, tube);
+    compare("load of the floor" + run, column.stress.back(), expected.back(), goal);
+    double worst = 0;
+    for (std::size_t s = 0; s < slices; ++s) worst = std::max(worst, std::abs(column.stress[s] - expected[s]));
+    compare("stress at any depth" + run, worst / column.stress.back(), 0, goal, 1);
     compare("stress off the exponential" + run, root_mean_square(off_the_exponential(column)), 0, 0.063, 1);
-    const double carried = std::accumulate(column.carried.begin() + top, column.carried.begin() + middle, 0.0),
-                 pushed = std::accumulate(column.pushed.begin() + top, column.pushed.begin() + middle, 0.0);
+    const double exponential = janssen(column.height / column.decay(top, middle));
+    const double share = column.floor / column.weight;
+    compare("share of the floor by the upper half" + run, share, exponential, 0.155);
     testing::Test::RecordProperty(
         "round column" + run,
-        fmt::format("height {:.4g} m, floor {:.4g} of the weight, Janssen {:.4g}, mobilised {:.3g} of {}, K {:.4g}",
-                    column.height, share, expected, carried / pushed, wall_friction,
-                    column.friction_ratio(top, middle) * pushed / carried));
+        fmt::format("height {:.4g} m, floor {:.4g} of the weight, mobilised {:.3g} of {}, K {:.4g}", column.height,
+                    share, sum(column.carried) / sum(column.pushed), wall_friction, k));
   }
 }
 
