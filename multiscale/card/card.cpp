@@ -60,27 +60,6 @@ core::Json drift_of(const BedOfRun& bed) {
   return {{"window_s", bed.window}, {"measures", measures}, {"lines", drift_lines(bed)}};
 }
 
-bool matters(const LeftOut& left_out) { return left_out.least > left_out.promise; }
-bool may_matter(const LeftOut& left_out) { return left_out.sum > left_out.promise; }
-
-/// "4.2 %", or "0.4 % to 4.2 %"; a sum that rounds to what is allowed has a third digit.
-std::string share_text(const LeftOut& left_out) {
-  const std::string least = share_of_weight(left_out.least), most = share_of_weight(left_out.sum);
-  const bool alike = most == share_of_weight(left_out.promise) && may_matter(left_out);
-  const std::string end = alike ? fmt::format("{:.3g} %", 100 * left_out.sum) : most;
-  return least == most ? end : least + " to " + end;
-}
-
-/// What a run met of it, and with the bounds of what its monitor cannot evaluate.
-std::string met_text(const ForcesMet& met, const LeftOut& left_out) {
-  double all = met.share;
-  for (const LeftOutEffect& one : left_out.effects)
-    if ((one.row.summed || one.row.share_off) && !std::count(met.effects.begin(), met.effects.end(), one.row.effect))
-      all += one.bound.value_or(0);
-  return fmt::format("; in the run {} of {}, with the rest {}: {}", each(met.effects), share_of_weight(met.share),
-                     share_of_weight(all), all > left_out.promise ? "matters" : "does not matter");
-}
-
 // ---- words
 
 std::string one_digit(double value) {
@@ -255,15 +234,6 @@ std::string computing_text(const TimeBand& time) {
                      short_time(time.most));
 }
 
-std::string left_out_text(const LeftOut& left_out) {
-  const std::string allowed = relevance::percent(left_out.promise) + " allowed: ";
-  std::string text = "forces of " + share_text(left_out) + " of the weight, ";
-  if (!may_matter(left_out)) return text + "within the " + allowed + "does not matter";
-  text += matters(left_out) ? "above the " + allowed + "matters" : allowed + "may matter";
-  for (const std::string& line : remedies(left_out)) text += "; " + line;
-  return text;
-}
-
 void write_card(core::Json& json, const core::Scene& scene, const Card& card) {
   const BedOfRun& seen = card.seen;
   core::Json tops;
@@ -284,7 +254,7 @@ void write_card(core::Json& json, const core::Scene& scene, const Card& card) {
       {"discharge_kg_s", core::or_null(seen.discharge)},
       {"steady", seen.steady ? core::Json(*seen.steady) : core::Json()},
       {"limited_by", core::text_or_null(card.limited_by)},
-      {"left_out", left_out_text(card.left_out)},
+      {"left_out", left_out_text(card.left_out, card.met)},
       {"time_s", {{"taken", core::or_null(card.taken)}, {"predicted", card.predicted.expected}}},
       {"lines", result_lines(card)},
   });
@@ -391,9 +361,7 @@ std::vector<std::string> result_lines(const Card& card) {
   if (seen.blocked) lines.push_back(card_line("discharge", "none: nothing leaves any more, and over half remains"));
   if (seen.height || seen.steady) lines.push_back(card_line("steady", steady_text(seen)));
   if (!card.limited_by.empty()) lines.push_back(card_line("step", "limited by " + card.limited_by));
-  std::string left_out = left_out_text(card.left_out);
-  if (card.met) left_out += met_text(*card.met, card.left_out);
-  lines.push_back(card_line("left out", left_out));
+  lines.push_back(card_line("left out", left_out_text(card.left_out, card.met)));
   if (card.taken)
     lines.push_back(card_line("time", fmt::format("{} of computing, predicted {} ({} to {})", short_time(*card.taken),
                                                   short_time(card.predicted.expected), short_time(card.predicted.least),

@@ -8,7 +8,6 @@
 #include "multiscale/card/bed_of_case.hpp"
 #include "multiscale/card/bed_of_run.hpp"
 #include "multiscale/effects/left_out.hpp"
-#include "multiscale/effects/neglected.hpp"
 #include "multiscale/estimate/estimate.hpp"
 
 namespace polybed::multiscale {
@@ -34,9 +33,6 @@ void write_expected(core::Json& json, const core::Scene& scene, const BedOfCase&
 
 /// For a run at its end.
 [[nodiscard]] std::vector<std::string> result_lines(const Card& card);
-
-/// The neglected effects of a model, and whether they matter, in one line without its heading.
-[[nodiscard]] std::string left_out_text(const LeftOut& left_out);
 
 /// A time mean with its interval, if that is visible in four digits. \param scale  from SI to the unit
 [[nodiscard]] std::string mean_text(const measures::TimeMean& mean, double scale, const std::string& unit);

@@ -96,6 +96,28 @@ std::string sum_text(const LeftOut& left_out) {
   return text;
 }
 
+bool matters(const LeftOut& left_out) { return left_out.least > left_out.promise; }
+bool may_matter(const LeftOut& left_out) { return left_out.sum > left_out.promise; }
+
+/// "4.2 %", or "0.4 % to 4.2 %"; a sum that rounds to what is allowed has a third digit.
+std::string share_text(const LeftOut& left_out) {
+  const std::string least = share_of_weight(left_out.least), most = share_of_weight(left_out.sum);
+  const bool alike = most == share_of_weight(left_out.promise) && may_matter(left_out);
+  const std::string end = alike ? fmt::format("{:.3g} %", 100 * left_out.sum) : most;
+  return least == most ? end : least + " to " + end;
+}
+
+/// What a run met of it, and with the bounds of what its monitor cannot evaluate.
+std::string met_text(const ForcesMet& met, const LeftOut& left_out) {
+  double all = met.share;
+  for (const LeftOutEffect& one : left_out.effects)
+    if ((one.row.summed || one.row.share_off) && !std::count(met.effects.begin(), met.effects.end(), one.row.effect))
+      all += one.bound.value_or(0);
+  return fmt::format("; in the run {} of {}, with the rest {}: {}", fmt::join(met.effects, ", "),
+                     share_of_weight(met.share), share_of_weight(all),
+                     all > left_out.promise ? "matters" : "does not matter");
+}
+
 }  // namespace
 
 std::string share_of_weight(double bound) { return bound > 1 ? "over 100 %" : relevance::percent(bound); }
@@ -146,6 +168,16 @@ std::vector<std::string> remedies(const LeftOut& left_out) {
   tell("a run cannot have ", Remedy::not_built);
   tell("undecided, try with and without: ", Remedy::try_it);
   return lines;
+}
+
+std::string left_out_text(const LeftOut& left_out, const std::optional<ForcesMet>& met) {
+  const std::string allowed = relevance::percent(left_out.promise) + " allowed: ";
+  std::string text = "forces of " + share_text(left_out) + " of the weight, ";
+  text += matters(left_out)      ? "above the " + allowed + "matters"
+          : may_matter(left_out) ? allowed + "may matter"
+                                 : "within the " + allowed + "does not matter";
+  for (const std::string& line : remedies(left_out)) text += "; " + line;
+  return met ? text + met_text(*met, left_out) : text;
 }
 
 std::vector<std::string> to_try(const LeftOut& left_out) {

@@ -8,6 +8,7 @@
 
 #include "core/case/scene.hpp"
 #include "core/output/json.hpp"
+#include "multiscale/effects/neglected.hpp"
 #include "relevance/choice.hpp"
 
 namespace polybed::multiscale {
@@ -50,6 +51,9 @@ void write_left_out(core::Json& json, const LeftOut& left_out);
 
 /// The roles that remedies() calls undecided.
 [[nodiscard]] std::vector<std::string> to_try(const LeftOut& left_out);
+
+/// The sum, and whether it matters by the case and by what a run met, in one line without the heading of a card.
+[[nodiscard]] std::string left_out_text(const LeftOut& left_out, const std::optional<ForcesMet>& met = {});
 
 /// A line with the effects that the scene needs and the case has off, or a drag law that must be wrong; empty without.
 [[nodiscard]] std::string called_for_line(const LeftOut& left_out);
