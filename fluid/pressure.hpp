@@ -38,7 +38,7 @@ void for_each_gradient_row(const core::Grid& grid, const core::Box& box, int axi
   const core::Index s = grid.stride(axis);
   const double per_length = 1 / grid.spacing[std::size_t(axis)];
   const double* value = p.data();
-  const double* graded = axis == 1 && grid.layers ? grid.metric->per_distance.data() : nullptr;
+  const double* graded = grid.graded(axis) ? grid.metric->per_distance[std::size_t(axis)].data() : nullptr;
   core::for_each_row(grid, box, [&](core::Index begin, core::Index end) {
     if (graded)
       body(begin, end, [=](core::Index c) { return per_length * graded[c] * (value[c] - value[c - s]); });

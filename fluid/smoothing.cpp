@@ -46,8 +46,8 @@ class OpenEntries {
   [[nodiscard]] double between(core::Index c, int axis, core::Index stride) const {
     if (!(volume(c) > 0 && volume(c - stride) > 0)) return 0;
     const double per_length = axis != 1  ? 1.0
-                              : of_ == 1 ? metric_.per_height[std::size_t(c - stride)]
-                                         : metric_.per_distance[std::size_t(c)];
+                              : of_ == 1 ? metric_.per_length[1][std::size_t(c - stride)]
+                                         : metric_.per_distance[1][std::size_t(c)];
     return per_length * mean(metric_.open[std::size_t(axis)], c);
   }
 

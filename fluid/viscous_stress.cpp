@@ -56,11 +56,10 @@ double rate_of_face(const core::Grid& grid, std::size_t a, Index f) {
   for (std::size_t b = 0; b < std::size_t(grid.dimensions); ++b) {
     const auto next = std::size_t(grid.stride(int(b)));
     const core::Field& open = metric.open[b];
-    const auto stretch = [&](const core::Field& share, std::size_t c) { return b == 1 ? share[c] : 1.0; };
     const auto within = [&](std::size_t c) {
-      return metric.volume[c] * stretch(metric.per_height, c) * stretch(metric.per_height, c);
+      return metric.volume[c] * metric.per_length[b][c] * metric.per_length[b][c];
     };
-    const auto through = [&](std::size_t f, std::size_t edge) { return open[f] * stretch(metric.per_distance, edge); };
+    const auto through = [&](std::size_t f, std::size_t edge) { return open[f] * metric.per_distance[b][edge]; };
     const double both = b == a ? within(low) + within(at)
                                : 0.5 * (through(low, at) + through(at, at) + through(low + next, at + next) +
                                         through(at + next, at + next));

@@ -37,6 +37,7 @@ void draw_in(core::Scene& scene, std::size_t axis, int cells) {
   scene.walls.clear();
   column.cells[axis] = cells;
   column.size[axis] *= share;
+  if (axis != 1) column.across[axis / 2].clear();
   const auto draw = [&](auto& part, core::ColumnFace at) {
     for (std::size_t n = 0; n < part.from.size(); ++n) {
       if (std::size_t(axis_along(at, column.dimensions, n)) != axis) continue;
@@ -238,6 +239,19 @@ std::string layers_text(const core::Column& column) {
       layers.back() / layers[layers.size() - 2], 1e3 * layers.back());
 }
 
+/// Of cells that are graded across; else empty.
+std::string widths_text(const core::Column& column) {
+  std::string text;
+  for (const std::size_t axis : {0, 2}) {
+    const std::vector<double>& widths = column.across[axis / 2];
+    if (widths.empty()) continue;
+    text += fmt::format("{}{:.4g} mm {} at the walls, each {:.4g} times its neighbour, {:.4g} mm in the middle",
+                        text.empty() ? "cells " : "; ", 1e3 * widths.front(), axis == 0 ? "wide" : "deep",
+                        widths[1] / widths[0], 1e3 * widths[widths.size() / 2]);
+  }
+  return text;
+}
+
 /// Open volume and cells between walls inside; empty without walls that a fluid meets.
 std::string walls_text(const core::Scene& scene) {
   const core::Grid grid = core::grid_of(scene, nullptr);
@@ -296,7 +310,8 @@ core::Scene narrow_part(const core::Scene& scene, std::size_t most_cells) {
 
 std::string shape_text(const core::Scene& scene) {
   std::vector<std::string> parts;
-  for (const std::string& part : {round_text(scene.column), walls_text(scene), layers_text(scene.column)})
+  for (const std::string& part :
+       {round_text(scene.column), walls_text(scene), layers_text(scene.column), widths_text(scene.column)})
     if (!part.empty()) parts.push_back(part);
   return fmt::format("{}", fmt::join(parts, "; "));
 }

@@ -106,9 +106,10 @@ double Preconditioner::viscous_diagonal(int axis, Index face) const {
       const auto within = [&](Index c) {
         return 2 * metric.volume(c) * metric.per_length(b, c) * metric.per_length(b, c);
       };
-      const double open = d == axis && grid.layers ? within(face - s) + within(face)
-                                                   : through(face - s, face) + through(face, face) +
-                                                         through(face + t - s, face + t) + through(face + t, face + t);
+      const double open = d == axis && grid.graded(d)
+                              ? within(face - s) + within(face)
+                              : through(face - s, face) + through(face, face) + through(face + t - s, face + t) +
+                                    through(face + t, face + t);
       sum += (d == axis ? 8.0 / 3 : 2.0) * 0.25 * open * metric.per_volume_on(std::size_t(axis), face) /
              (grid.spacing[b] * grid.spacing[b]);
     }

@@ -163,6 +163,13 @@ std::vector<core::Rule> key_rules() {
        "column.shape = \"{}\" and tfm.solids_wall = \"{}\" cannot be combined yet: the solids slip freely along round "
        "walls",
        solids_held_by_a_round_wall},
+      {{"column.grading_across", "effects.solids_stress"},
+       "column.grading_across and collisions of solids in effects.solids_stress cannot be combined yet: use "
+       "\"frictional\"",
+       [](const Scene& scene) {
+         return core::broken_if(scene.column.grading_across &&
+                                relevance::effects::solids_stress.has(scene, relevance::effects::with_collisions));
+       }},
       {{"wall.shape", "wall.thickness", "tfm.solids_wall"},
        "[[wall]] and tfm.solids_wall = \"{}\" cannot be combined yet: the solids slip freely along walls inside",
        solids_held_by_inner_walls},

@@ -74,11 +74,18 @@ void subtract_stress_loops(const Constants& constants, const fluid::Boundaries& 
     const Index s = constants.grid.stride(axis);
     double* a = fields.solids.acceleration[j][std::size_t(axis)].data();
     double scale = 1 / (constants.grid.spacing[std::size_t(axis)] * constants.density[j]);
-    if (axis == 1 && constants.grid.layers) scale *= constants.grid.metric->per_distance[std::size_t(begin)];
+    const Field& work = fields.stress.upwind_work[std::size_t(axis)];
+    const double* per_distance = nullptr;
+    if (constants.grid.graded(axis)) per_distance = constants.grid.metric->per_distance[std::size_t(axis)].data();
+    if (per_distance && axis == 0) {  // no work: it acts along gravity
+      for (Index c = begin; c < end; ++c)
+        a[c] -= scale * per_distance[c] * (p[c] - p[c - s]) / std::max(face_mean(phi, c, s), stress_fraction_floor);
+      return;
+    }
+    if (per_distance) scale *= per_distance[begin];
 #pragma GCC ivdep
     for (Index c = begin; c < end; ++c)
       a[c] -= scale * (p[c] - p[c - s]) / std::max(face_mean(phi, c, s), stress_fraction_floor);
-    const Field& work = fields.stress.upwind_work[std::size_t(axis)];
     if (work.empty()) return;
     const double* jump = work.data();
 #pragma GCC ivdep

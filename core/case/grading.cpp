@@ -28,4 +28,12 @@ std::vector<double> graded_layers(double height, int cells, double above, double
   return layers;
 }
 
+std::vector<double> graded_widths(double width, int cells, double ratio) {
+  std::vector<double> widths;
+  double sum = 0;
+  for (int n = 0; n < cells; ++n) sum += widths.emplace_back(std::pow(ratio, std::min(n, cells - 1 - n)));
+  for (double& one : widths) one *= width / sum;
+  return widths;
+}
+
 }  // namespace polybed::core

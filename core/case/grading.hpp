@@ -1,4 +1,5 @@
-// The layers of cells of a column whose upper part is graded: each layer there is higher than the one below it.
+// The layers of cells of a graded column: each layer above the bed is higher than the one below it, and cells across
+// are wider towards the middle.
 #pragma once
 
 #include <vector>
@@ -10,5 +11,9 @@ namespace polybed::core {
 /// \param cells  number of even layers in the whole height  \param above  m, between 0 and the height
 /// \param ratio  of the heights of neighbours, at least 1
 [[nodiscard]] std::vector<double> graded_layers(double height, int cells, double above, double ratio);
+
+/// Widths of cells between two walls, m: each wider by the same factor than its neighbour towards the nearer wall.
+/// \param cells  their number  \param ratio  at least 1
+[[nodiscard]] std::vector<double> graded_widths(double width, int cells, double ratio);
 
 }  // namespace polybed::core

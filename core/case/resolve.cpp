@@ -43,6 +43,13 @@ void fill_graded_layers(Column& column) {
   column.cells[1] = int(column.layers.size());
 }
 
+void fill_graded_widths(Column& column) {
+  if (!column.grading_across || column.shape != ColumnShape::box || column.sides != Boundary::wall) return;
+  for (const std::size_t axis : {0, 2})
+    if (column.cells[axis] > 2)
+      column.across[axis / 2] = graded_widths(column.size[axis], column.cells[axis], *column.grading_across);
+}
+
 void fill_gravity(Column& column) {
   const std::vector<double>& given = column.gravity_direction;
   if (given.empty()) return;
@@ -146,6 +153,8 @@ void resolve(Scene& scene, const std::string& case_name, WrongKeys& wrong) {
     fill_size(scene);
     if (wrong.sound("column.cells")) fill_cells(scene.column);
     if (wrong.sound({"column.cells", "column.grading", "column.graded_above"})) fill_graded_layers(scene.column);
+    if (wrong.sound({"column.cells", "column.grading_across", "column.shape", "column.sides"}))
+      fill_graded_widths(scene.column);
     if (wrong.sound("column.gravity_direction")) fill_gravity(scene.column);
     if (wrong.sound({"inlet.flow_rate", "column.depth"})) fill_inlet(scene);
   }

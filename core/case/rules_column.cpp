@@ -113,6 +113,56 @@ std::vector<Rule> grading_rules() {
            }}};
 }
 
+/// "column.grading_across" with what needs even cells across.
+Rule even_across(const std::string& key, const std::string& what, bool (*set)(const Scene&)) {
+  return {{"column.grading_across", key},
+          "column.grading_across and " + what + " cannot be combined yet: leave out one of them",
+          [set](const Scene& scene) { return broken_if(scene.column.grading_across && set(scene)); }};
+}
+
+Broken too_wide_in_the_middle(const Scene& scene) {
+  Broken broken;
+  for (const std::vector<double>& widths : scene.column.across)
+    if (!widths.empty() && widths[widths.size() / 2] > 10 * widths.front())
+      broken.add({fmt::format("{:g}", *scene.column.grading_across),
+                  fmt::format("{:.3g}", widths[widths.size() / 2] / widths.front())});
+  return broken;
+}
+
+std::vector<Rule> across_rules() {
+  return {{{"column.grading_across", "column.shape", "column.sides"},
+           "column.grading_across makes cells smaller at flat side walls: it needs column.shape = \"box\" and "
+           "column.sides = \"wall\"",
+           [](const Scene& scene) {
+             const Column& column = scene.column;
+             return broken_if(column.grading_across &&
+                              (column.shape != ColumnShape::box || column.sides != Boundary::wall));
+           }},
+          {{"column.grading_across", "column.cells"},
+           "column.grading_across needs at least three cells across: column.cells has fewer",
+           [](const Scene& scene) {
+             const auto& cells = scene.column.cells;
+             return broken_if(scene.column.grading_across && cells[0] < 3 && cells[2] < 3);
+           }},
+          {{"column.grading_across", "column.cells"},
+           "column.grading_across = {} makes cells in the middle {} times as wide as at the walls, at most 10: use a "
+           "smaller ratio or fewer cells",
+           too_wide_in_the_middle},
+          even_across("jet.superficial_velocity", "[[jet]]", [](const Scene& s) { return !s.jets.empty(); }),
+          even_across("feed.species", "[[feed]]", [](const Scene& s) { return !s.feeds.empty(); }),
+          even_across("discharge.at", "[[discharge]]", [](const Scene& s) { return !s.discharges.empty(); }),
+          even_across("wall.shape", "[[wall]]", [](const Scene& s) { return !s.walls.empty(); }),
+          even_across("layer.from", "[[layer]] with from",
+                      [](const Scene& s) {
+                        return std::any_of(s.layers.begin(), s.layers.end(),
+                                           [](const Layer& layer) { return !layer.from.empty(); });
+                      }),
+          even_across("fluid.equation_of_state", "a compressible fluid",
+                      [](const Scene& s) { return s.fluid.present() && s.fluid.compressible(); }),
+          even_across("column.gravity_direction", "column.gravity_direction other than down",
+                      [](const Scene& s) { return is_tilted(s.column); })};
+}
+
 std::vector<Rule> gravity_rules() {
   return {
       {{"column.gravity_direction", "column.size", "fluid.name", "fluid.equation_of_state"},
@@ -202,7 +252,8 @@ std::vector<Rule> time_rules() {
 
 std::vector<Rule> column_rules() {
   std::vector<Rule> rules;
-  for (const auto& part : {axis_rules(), grading_rules(), gravity_rules(), end_rules(), shear_rules(), time_rules()})
+  for (const auto& part :
+       {axis_rules(), grading_rules(), across_rules(), gravity_rules(), end_rules(), shear_rules(), time_rules()})
     rules.insert(rules.end(), part.begin(), part.end());
   return rules;
 }

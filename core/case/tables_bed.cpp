@@ -36,6 +36,9 @@ Table column_table() {
                    "larger cells in the freeboard; cells is then the number without grading")),
           key(&Column::graded_above, "graded_above", dimension::length, above(0, 1e3),
               help("height above which layers grow; the bed should stay below it")),
+          key(&Column::grading_across, "grading_across", above(1, 1.2),
+              help("width of a cell over that of its neighbour towards the nearer side wall, in a flat box of the TFM: "
+                   "smaller cells at the walls, the same number; along width and depth")),
           key(&Column::depth, "depth", dimension::length, above(0, 1e3),
               help("of a 2-D column; default: twice the largest diameter and twice dem.skin")),
           key(&Column::sides, "sides", help("walls (fluid: no slip; solids: tfm.solids_wall), or joined")),

@@ -27,15 +27,15 @@ double surface(const Grid& column, const std::array<int, 3>& blocks) {
 /// First cell of block n when cells are distributed evenly; the first blocks get one more if there is a remainder.
 int first_cell(int cells, int blocks, int n) { return n * (cells / blocks) + std::min(n, cells % blocks); }
 
-std::shared_ptr<const Layers> layers_of(const Column& column) {
-  if (column.layers.empty()) return nullptr;
-  Layers layers{column.layers, {0}};
+std::shared_ptr<const Layers> layers_of(const std::vector<double>& heights, double end) {
+  if (heights.empty()) return nullptr;
+  Layers layers{heights, {0}};
   for (const double height : layers.height) {
     const auto n = double(layers.low.size());
     const bool even = height == layers.height.front();  // the low faces are then exactly those of even cells
     layers.low.push_back(even ? n * height : layers.low.back() + height);
   }
-  layers.low.back() = column.size[1];
+  layers.low.back() = end;
   return std::make_shared<const Layers>(std::move(layers));
 }
 
@@ -121,7 +121,8 @@ Grid grid_of(const Column& column, const std::shared_ptr<const Ranks>& ranks, co
   grid.dimensions = column.dimensions;
   grid.cells = column.cells;
   for (std::size_t d = 0; d < 3; ++d) grid.spacing[d] = column.cell(d);
-  grid.layers = layers_of(column);
+  grid.layers = layers_of(column.layers, column.size[1]);
+  for (std::size_t n : {0, 1}) grid.across[n] = layers_of(column.across[n], column.size[2 * n]);
   grid.periodic[0] = column.sides == core::Boundary::periodic;
   grid.periodic[2] = column.sides == core::Boundary::periodic && column.dimensions == 3;
   Grid block = block_of(grid, ranks);
@@ -134,6 +135,7 @@ Grid whole_column(const Grid& block) {
   column.dimensions = block.dimensions;
   column.spacing = block.spacing;
   column.layers = block.layers;
+  column.across = block.across;
   column.periodic = block.periodic;
   for (int axis = 0; axis < 3; ++axis) column.cells[std::size_t(axis)] = block.column_cells(axis);
   if (block.cells == column.cells)

@@ -20,10 +20,10 @@ struct Metric;
 
 using Index = std::ptrdiff_t;
 
-/// Layers of cells of different heights, in the whole column.
+/// Layers of cells of different heights along an axis, in the whole column.
 struct Layers {
-  std::vector<double> height;  ///< m, from the bottom up
-  std::vector<double> low;     ///< of their low faces, and the top of the column, m
+  std::vector<double> height;  ///< m, from the bottom up, or from the low end of x or z
+  std::vector<double> low;     ///< of their low faces, and the end of the column, m
 };
 
 struct Grid {
@@ -41,6 +41,7 @@ struct Grid {
   std::array<int, 3> block{0, 0, 0};     ///< index of this block
   std::shared_ptr<const Ranks> ranks;    ///< the ranks that own the blocks; null: the whole column is here
   std::shared_ptr<const Layers> layers;  ///< where they are graded along the height; null: all alike
+  std::array<std::shared_ptr<const Layers>, 2> across;  ///< the same along x and z
   std::shared_ptr<const Metric> metric;  ///< for a round or graded column; null: every cell is open and alike
 
   /// Ghost layers along an axis: none along an inactive axis.
@@ -82,25 +83,33 @@ struct Grid {
   }
   /// Volume of a whole cell, m3.
   [[nodiscard]] double cell_volume() const { return spacing[0] * spacing[1] * spacing[2]; }
-  /// Height of a layer of the column, m; beyond the ends the outermost one's.
-  [[nodiscard]] double height(int y) const {
-    return layers ? layers->height[std::size_t(std::clamp(y, 0, column_cells(1) - 1))] : spacing[1];
+  /// The layers along an axis; null: all alike.
+  [[nodiscard]] const Layers* graded(int axis) const {
+    return axis == 1 ? layers.get() : across[std::size_t(axis / 2)].get();
   }
+  /// Side of the column's cell n along an axis, m; beyond the ends the outermost one's.
+  [[nodiscard]] double side(int axis, int n) const {
+    const Layers* of = graded(axis);
+    return of ? of->height[std::size_t(std::clamp(n, 0, column_cells(axis) - 1))] : spacing[std::size_t(axis)];
+  }
+  /// Height of a layer of the column, m.
+  [[nodiscard]] double height(int y) const { return side(1, y); }
   /// Low face of the column's cell n along an axis, m; the column begins at 0.
   [[nodiscard]] double low(int axis, int n) const {
-    if (axis != 1 || !layers) return n * spacing[std::size_t(axis)];
-    const int inside = std::clamp(n, 0, column_cells(1));
-    return layers->low[std::size_t(inside)] + (n - inside) * height(n);
+    const Layers* of = graded(axis);
+    if (!of) return n * spacing[std::size_t(axis)];
+    const int inside = std::clamp(n, 0, column_cells(axis));
+    return of->low[std::size_t(inside)] + (n - inside) * side(axis, n);
   }
   /// Side along an axis of the cells at its low (0) or high (1) end, m.
-  [[nodiscard]] double size_at_end(int axis, int side) const {
-    return axis == 1 ? height(side == 0 ? 0 : column_cells(1) - 1) : spacing[std::size_t(axis)];
+  [[nodiscard]] double size_at_end(int axis, int end) const {
+    return side(axis, end == 0 ? 0 : column_cells(axis) - 1);
   }
   [[nodiscard]] double column_height() const { return low(1, column_cells(1)); }
   /// Centre of this block's cell i along an axis, m.
   [[nodiscard]] double centre(int axis, int i) const {
     const int n = before[std::size_t(axis)] + i;
-    return axis == 1 && layers ? 0.5 * (low(1, n) + low(1, n + 1)) : (n + 0.5) * spacing[std::size_t(axis)];
+    return graded(axis) ? 0.5 * (low(axis, n) + low(axis, n + 1)) : (n + 0.5) * spacing[std::size_t(axis)];
   }
 };
 

@@ -39,14 +39,19 @@ class Spreading {
       x = std::clamp(x, 0, section.width - 1);
       z = std::clamp(z, 0, section.depth - 1);
     }
-    const double a = grid_.height(y) / grid_.spacing[1], below = grid_.height(y - 1) / grid_.spacing[1];
+    const double a = grid_.height(y) / grid_.spacing[1];
     const bool across = x >= 0 && x < section.width, along = z >= 0 && z < section.depth;
     const double theta = across && along ? a * section.volume[section.at(x, z)] : 0;
     const auto at = std::size_t(c);
     metric_.volume[at] = theta;
     metric_.per_volume[at] = theta > 0 ? 1 / theta : 0;
-    metric_.per_height[at] = 1 / a;
-    metric_.per_distance[at] = 2 / (below + a);
+    for (int axis = 0; axis < grid_.dimensions; ++axis) {
+      const int n = std::array{i, j, k}[std::size_t(axis)] + grid_.before[std::size_t(axis)];
+      const double h = grid_.spacing[std::size_t(axis)], own = grid_.side(axis, n) / h,
+                   low = grid_.side(axis, n - 1) / h;
+      metric_.per_length[std::size_t(axis)][at] = 1 / own;
+      metric_.per_distance[std::size_t(axis)][at] = 2 / (low + own);
+    }
     metric_.open[1][at] = across && along ? metric_.level(y).open_y[section.at(x, z)] : 0;
     if (along && x >= 0 && x <= section.width)
       metric_.open[0][at] = a * section.open_x[std::size_t(x + (section.width + 1) * z)];
@@ -100,16 +105,17 @@ class Spreading {
 /// A layer of a box.
 CrossSection whole_section(const Grid& column) {
   const int nx = column.cells[0], nz = column.cells[2];
-  const std::vector<double> cells(std::size_t(nx * nz), 1.0);
-  return {nx,
-          nz,
-          cells,
-          cells,
-          std::vector<double>(std::size_t((nx + 1) * nz), 1.0),
-          std::vector<double>(std::size_t(column.dimensions == 3 ? nx * (nz + 1) : 0), 1.0),
-          std::vector<double>(cells.size(), 0.0),
-          {},
-          {}};
+  const auto width = [&](int i) { return column.side(0, i) / column.spacing[0]; };
+  const auto depth = [&](int k) { return column.side(2, k) / column.spacing[2]; };
+  CrossSection section{nx, nz, {}, {}, {}, {}, std::vector<double>(std::size_t(nx * nz), 0.0), {}, {}};
+  for (int k = 0; k < nz; ++k) {
+    for (int i = 0; i < nx; ++i) section.volume.push_back(width(i) * depth(k));
+    for (int i = 0; i <= nx; ++i) section.open_x.push_back(depth(k));
+  }
+  section.open_y = section.volume;
+  for (int k = 0; column.dimensions == 3 && k <= nz; ++k)
+    for (int i = 0; i < nx; ++i) section.open_z.push_back(width(i));
+  return section;
 }
 
 /// Without walls inside.
@@ -131,7 +137,7 @@ std::vector<CrossSection> layers_between_walls(const Grid& column, const Metric&
 
 std::shared_ptr<const Metric> metric_of(const Grid& grid, ColumnShape shape, const Taper& taper,
                                         const InsideWalls& walls, const Ducts& ducts) {
-  if (shape == ColumnShape::box && !grid.layers && !walls) return nullptr;
+  if (shape == ColumnShape::box && !grid.layers && !grid.across[0] && !grid.across[1] && !walls) return nullptr;
   auto metric = std::make_shared<Metric>();
   const Grid column = whole_column(grid);
   metric->shape = shape;
@@ -141,10 +147,11 @@ std::shared_ptr<const Metric> metric_of(const Grid& grid, ColumnShape shape, con
   metric->walls = walls;
   std::vector<CrossSection> uncut = layers_of(column, *metric);
   metric->layers = walls ? layers_between_walls(column, *metric, uncut) : uncut;
-  for (Field* field : {&metric->volume, &metric->per_volume, &metric->per_radius, &metric->per_radius_on,
-                       &metric->per_height, &metric->per_distance})
+  for (Field* field : {&metric->volume, &metric->per_volume, &metric->per_radius, &metric->per_radius_on})
     *field = make_field(grid);
-  for (FaceField* field : {&metric->open, &metric->per_volume_on, &metric->wall}) *field = make_face_field(grid);
+  for (FaceField* field :
+       {&metric->open, &metric->per_volume_on, &metric->wall, &metric->per_length, &metric->per_distance})
+    *field = make_face_field(grid);
   Spreading(grid, uncut, *metric).fill();
   return metric;
 }
@@ -176,9 +183,10 @@ void weigh_faces(const Grid& grid, FaceField& coefficient) {
   for (int axis = 0; axis < grid.dimensions; ++axis) {
     const Field& open = grid.metric->open[std::size_t(axis)];
     Field& field = coefficient[std::size_t(axis)];
-    const auto height = [&](std::size_t f) { return axis == 1 ? 1.0 : 1 / grid.metric->per_height[f]; };
+    const auto height = [&](std::size_t f) { return axis == 1 ? 1.0 : 1 / grid.metric->per_length[1][f]; };
     for (std::size_t f = 0; f < field.size(); ++f) field[f] *= open[f] > 0 ? open[f] : leak * height(f);
-    for (std::size_t f = 0; axis == 1 && grid.layers && f < field.size(); ++f) field[f] *= grid.metric->per_distance[f];
+    const Field& per_distance = grid.metric->per_distance[std::size_t(axis)];
+    for (std::size_t f = 0; grid.graded(axis) && f < field.size(); ++f) field[f] *= per_distance[f];
   }
 }
 

@@ -1,5 +1,5 @@
 // The open parts of a grid's equal cells: where the wall of a round column or walls inside cut them, or where they lie
-// around an axis; and the heights of layers where these are graded.
+// around an axis; and the sides of cells where these are graded.
 //
 // The open volume of a cell is theta V and the open area of a face alpha A, with V and A of a whole cell and face:
 //
@@ -10,6 +10,7 @@
 //
 // A graded layer is a times as high as the lowest: theta and the alpha of its upright faces are multiplied by a, which
 // makes every sum of fluxes exact. Differences along the height between centres are divided by the mean of both a.
+// The same holds across a flat box that is graded towards its walls.
 //
 // The pressure at a wall is that in its cell. It acts on the closed area of the cell's faces and leaves theta grad p:
 // an even pressure pushes nothing, and a bed rests in a cone as it does in a box.
@@ -77,8 +78,8 @@ struct Metric {
   FaceField wall;                            ///< no-slip at a curved wall: damping over the kinematic viscosity, 1/m2
   Field per_radius;                          ///< 1/r of cells, 1/m; 0 in a box and a cylinder
   Field per_radius_on;                       ///< and of faces along x
-  Field per_height;                          ///< 1/a of the cell's layer; 1 unless layers are graded
-  Field per_distance;                        ///< of the centres across a face along y, in lowest cells: 2/(a + a)
+  FaceField per_length;                      ///< 1/a of the cell's layer along each axis; 1 unless graded
+  FaceField per_distance;                    ///< of the centres across a face, in least cells: 2/(a + a)
   bool around_axis = false;                  ///< the low end along x is an axis, without a wall
   std::array<std::vector<Index>, 3> closed;  ///< faces of the padded box without an open part
   /// Owned faces closed by walls that cut the grid into steps: by walls inside, and by these or a taper.
@@ -122,12 +123,12 @@ class GeneralMetric {
       : volume_(metric.volume.data()),
         per_volume_(metric.per_volume.data()),
         per_radius_(metric.per_radius.data()),
-        per_radius_on_(metric.per_radius_on.data()),
-        per_height_(metric.per_height.data()),
-        per_distance_(metric.per_distance.data()) {
+        per_radius_on_(metric.per_radius_on.data()) {
     for (std::size_t a = 0; a < 3; ++a) {
       open_[a] = metric.open[a].data();
       per_volume_on_[a] = metric.per_volume_on[a].data();
+      per_length_[a] = metric.per_length[a].data();
+      per_distance_[a] = metric.per_distance[a].data();
     }
   }
   [[nodiscard]] double volume(Index c) const { return volume_[c]; }
@@ -135,14 +136,14 @@ class GeneralMetric {
   [[nodiscard]] double open(std::size_t axis, Index f) const { return open_[axis][f]; }
   [[nodiscard]] double per_volume_on(std::size_t axis, Index f) const { return per_volume_on_[axis][f]; }
   /// 1 over the length of a cell along an axis, and over the distance of the centres across a face, in grid spacings.
-  [[nodiscard]] double per_length(std::size_t axis, Index c) const { return axis == 1 ? per_height_[c] : 1.0; }
-  [[nodiscard]] double per_distance(std::size_t axis, Index f) const { return axis == 1 ? per_distance_[f] : 1.0; }
+  [[nodiscard]] double per_length(std::size_t axis, Index c) const { return per_length_[axis][c]; }
+  [[nodiscard]] double per_distance(std::size_t axis, Index f) const { return per_distance_[axis][f]; }
   [[nodiscard]] double per_radius(Index c) const { return per_radius_[c]; }
   [[nodiscard]] double per_radius_on(Index f) const { return per_radius_on_[f]; }
 
  private:
-  const double *volume_, *per_volume_, *per_radius_, *per_radius_on_, *per_height_, *per_distance_;
-  std::array<const double*, 3> open_{}, per_volume_on_{};
+  const double *volume_, *per_volume_, *per_radius_, *per_radius_on_;
+  std::array<const double*, 3> open_{}, per_volume_on_{}, per_length_{}, per_distance_{};
 };
 
 /// Calls act(UniformMetric) or act(GeneralMetric), for loops that are compiled for each.

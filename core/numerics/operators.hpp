@@ -66,6 +66,17 @@ inline void subtract_convection(const Grid& grid, const FaceField& velocity, int
     const double* v = velocity[std::size_t(across)].data();
     const Index t = grid.stride(across);
     const double per_width = 1 / grid.spacing[std::size_t(across)];
+    if (grid.graded(across)) {
+      const double* per_distance = grid.metric->per_distance[std::size_t(across)].data();
+      for_each_row(grid, box, [&](Index begin, Index end) {
+        for (Index c = begin; c < end; ++c) {
+          const double transverse = 0.25 * ((v[c] + v[c - s]) + (v[c + t] + v[c - s + t]));
+          to[c] -= transverse * per_width * per_distance[transverse > 0 ? c : c + t] *
+                   UpwindDifference::at(u, c, t, transverse);
+        }
+      });
+      continue;
+    }
     for_each_row(grid, box, [&](Index begin, Index end) {
 #pragma GCC ivdep
       for (Index c = begin; c < end; ++c) {

@@ -66,6 +66,7 @@ bool is_cut_alike(const Grid& grid) { return grid.metric && grid.metric->cut() &
 }  // namespace
 
 bool RowMeanSolver::serves(const Grid& grid) {
+  if (grid.across[0] || grid.across[1]) return false;
   const Grid plain = PortPatch::without_ports(grid);
   if (is_cut_alike(plain)) return SectionModes::serves(plain);
   return grid.cells[0] <= most_across && grid.cells[2] <= most_across;

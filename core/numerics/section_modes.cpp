@@ -18,9 +18,9 @@ FaceField open_faces(const Grid& column) {
   FaceField open = make_face_field(column, 1);
   weigh_faces(column, open);
   for (std::size_t f = 0; column.layers && f < open[1].size(); ++f) {
-    open[0][f] *= column.metric->per_height[f];
-    open[1][f] /= column.metric->per_distance[f];
-    open[2][f] *= column.metric->per_height[f];
+    open[0][f] *= column.metric->per_length[1][f];
+    open[1][f] /= column.metric->per_distance[1][f];
+    open[2][f] *= column.metric->per_length[1][f];
   }
   return open;
 }

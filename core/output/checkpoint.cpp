@@ -191,22 +191,29 @@ const Value& entry(const std::map<std::string, Value>& entries, const std::strin
   return found->second;
 }
 
+constexpr std::array<const char*, 3> names_of_layers{"widths", "layers", "depths"};  // along x, y and z
+
 }  // namespace
 
 void put_layers(const Grid& grid, Checkpoint& checkpoint) {
-  if (grid.layers) checkpoint.texts["layers"] = fmt::format("{}", fmt::join(grid.layers->height, " "));
+  for (int axis = 0; axis < 3; ++axis)
+    if (const Layers* layers = grid.graded(axis))
+      checkpoint.texts[names_of_layers[std::size_t(axis)]] = fmt::format("{}", fmt::join(layers->height, " "));
 }
 
 void require_layers(const Grid& grid, const Checkpoint& checkpoint) {
   Checkpoint own;
   put_layers(grid, own);
   const auto layers_of = [](const Checkpoint& one) {
-    const auto found = one.texts.find("layers");
-    return found == one.texts.end() ? std::string() : found->second;
+    std::string all;
+    for (const char* name : names_of_layers)
+      if (const auto found = one.texts.find(name); found != one.texts.end()) all += name + (" " + found->second);
+    return all;
   };
   if (layers_of(own) != layers_of(checkpoint))
     throw FileError(
-        "the checkpoint is of a column with other layers of cells: column.grading, graded_above, size or cells differ");
+        "the checkpoint is of a column with other layers of cells: column.grading, graded_above, "
+        "grading_across, size or cells differ");
 }
 
 void refuse_checkpoint(const std::string& reason) {

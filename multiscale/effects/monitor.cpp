@@ -33,7 +33,10 @@ std::size_t cell_at(const core::Grid& column, const std::array<double, 3>& place
     if (column.periodic[a]) cell[a] += cell[a] < 0 ? n : cell[a] >= n ? -n : 0;
     cell[a] = std::clamp(cell[a], 0, n - 1);
   }
-  while (column.layers && cell[1] > 0 && column.low(1, cell[1]) > place[1]) --cell[1];
+  for (int axis = 0; axis < column.dimensions; ++axis) {
+    const auto a = std::size_t(axis);
+    while (column.graded(axis) && cell[a] > 0 && column.low(axis, cell[a]) > place[a]) --cell[a];
+  }
   return std::size_t(column.index(cell[0], cell[1], cell[2]));
 }
 

@@ -51,6 +51,11 @@ class Needs(Scratch):
         self.assertIn("a bubble in the gas is a ring about the axis", self.ends(DONE, "check", case, *round_column).stdout)
         self.assertNotIn("ring about", self.ends(DONE, "check", case).stdout)
 
+    def test_graded_cells_across_are_told(self):
+        """60 mm in eight cells of ratio 1.2: 60/(2 (1 + 1.2 + 1.44 + 1.728)) = 5.5887 mm at the walls, 1.728 times as much in the middle."""
+        text = self.ends(DONE, "check", CASE, *setting(column__cells="[8, 198]", column__grading_across=1.2)).stdout
+        self.assertIn("cells 5.589 mm wide at the walls, each 1.2 times its neighbour, 9.657 mm in the middle", text)
+
     def test_scales_follow_the_case(self):
         plain, fine, viscous = answer(), answer(*setting(column__cells="[36,396]")), answer(
             *setting(effects__fluid_stress="newtonian"))

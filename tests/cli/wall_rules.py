@@ -13,6 +13,7 @@ def tapered(*rows):
 
 TAPERED = tapered((0, 0.06), (0.1, 0.12), (0.2, 0.12))
 GRADED = "column.grading=1.1"
+ACROSS = "column.grading_across=1.1"
 
 
 def wall(start, end, shape="flat", thickness=0):
@@ -27,6 +28,18 @@ WALLS = {
     "column.grading and column.profile cannot be combined yet: leave out one of them": [GRADED, "column.graded_above=0.1", *TAPERED],
     "column.grading and [[wall]] in a fluid cannot be combined yet: leave out one of them": [
         GRADED, "column.graded_above=0.15", wall([0.02, 0.1], [0.06, 0.1], thickness=0.02)],
+    'column.grading_across makes cells smaller at flat side walls: it needs column.shape = "box" and column.sides = "wall"': [
+        ACROSS, "column.sides=periodic"],
+    "column.grading_across needs at least three cells across: column.cells has fewer": [ACROSS, "column.cells=[2, 20]"],
+    "column.grading_across = {} makes cells in the middle {} times as wide as at the walls, at most 10: use a smaller ratio or fewer cells": [
+        ACROSS, "column.cells=[60, 20]"],
+    **{f"column.grading_across and {what} cannot be combined yet: leave out one of them": [ACROSS, *words] for what, words in (
+        ("[[jet]]", ["jet=[{from=[0.02], to=[0.04], superficial_velocity=0.1}]"]), ("[[feed]]", [feeds("")]),
+        ("[[discharge]]", ['discharge=[{at="right", pressure=0, from=[0.1], to=[0.12]}]']),
+        ("[[wall]]", [wall([0.02, 0.1], [0.06, 0.1], thickness=0.02)]),
+        ("[[layer]] with from", [*COUNTED, layers(FINE + ", from=[0.02], to=[0.04]")]),
+        ("a compressible fluid", ["fluid.equation_of_state=tait"]),
+        ("column.gravity_direction other than down", ["column.gravity_direction=[0.1, -1]"]))},
     "[[wall]] number {} is a rod without thickness: give its diameter in wall.thickness": [wall([0.02, 0.1], [0.02, 0.1], "rod")],
     'column.shape = "cylinder" takes column.size = [diameter, diameter, height]': ["column.shape=cylinder"],
     "species.diameter: {} m is more than half the diameter of the round column, {} m": [
@@ -88,6 +101,9 @@ ROUND_OF_MODELS = {
         *ROUND, "dem.own_share=removed"],
     'column.grading and dem.own_share = "removed" cannot be combined yet; use dem.own_share = "kept"': [
         GRADED, "column.graded_above=0.1", "dem.own_share=removed"],
+    'column.grading_across and collisions of solids in effects.solids_stress cannot be combined yet: use "frictional"': [
+        ACROSS, "effects.solids_stress=kinetic"],
+    "column.grading_across: polybed tfm can run it, polybed dem cannot yet": [ACROSS],
 }
 ROUND_FOR_ONE_MODEL = {
     'column.shape = "axisymmetric": polybed tfm can run it, polybed dem cannot: particles go around the axis; use "cylinder"': [AROUND],

@@ -115,6 +115,11 @@ class Ranks(Scratch):
                          "--set", "tfm.fixed_step=1e-6", "--set", "run.until=1e-4", "--set", "output.every=1e-4",
                          "--set", "output.history_every=1e-4", on=RANKS[-1:])
 
+    def test_a_graded_bed_is_the_same_within_its_pressure(self):
+        """Widths are those of the whole column on every rank."""
+        self.check_equal(*FLAT, *FIXED, *TIGHT, "--set", "column.grading_across=1.1", "--set", "column.grading=1.1",
+                         "--set", "column.graded_above=0.2", same=SHARED)
+
     def test_a_wide_bed_is_the_same_within_its_pressure(self):
         self.check_equal(*WIDE, *FIXED, *TIGHT, "--set", "tfm.fixed_step=2e-4", "--set", "run.until=0.01", same=SHARED)
 

@@ -3,6 +3,7 @@
 
 #include <numbers>
 
+#include "core/case/grading.hpp"
 #include "core/numerics/metric.hpp"
 #include "scenes/record.hpp"
 
@@ -15,7 +16,8 @@ struct Channel {
   double profile, gradient;
 };
 
-Channel channel(int nx, int dimensions) {
+/// \param ratio  of the widths of neighbours; smaller at the walls
+Channel channel(int nx, int dimensions, double ratio = 1) {
   constexpr double width = 0.01, velocity = 0.02;  // Re 2 in a fluid of 1000 kg/m3, 0.1 Pa s
   core::Scene scene = uniform_bed(1e-3, 2000, 1000, 0.1, 0.5, 5 * nx, 5 * width);
   scene.column.size = {width, 5 * width, width};
@@ -28,6 +30,8 @@ Channel channel(int nx, int dimensions) {
     scene.column.cells = {3, 5 * nx, nx};
     scene.column.size[0] = 1.0;
   }
+  const int gap = dimensions == 3 ? 2 : 0;
+  if (ratio > 1) scene.column.across[std::size_t(gap / 2)] = core::graded_widths(width, nx, ratio);
   scene.inlet.superficial_velocity = {{0.0, velocity}};
   scene.effects = {{"drag", "stokes"}, {"fluid_stress", "newtonian"}};
   scene.tfm.rtol = 1e-4;
@@ -41,8 +45,8 @@ Channel channel(int nx, int dimensions) {
   const auto at = [&](int n, int j) { return std::size_t(dimensions == 3 ? grid.index(1, j, n) : grid.index(n, j)); };
   Channel error{0, 0};
   for (int n = 0; n < nx; ++n) {
-    const double x = 2 * (n + 0.5) / nx - 1;
-    error.profile += std::abs(u[at(n, 3 * nx)] / velocity - 1.5 * (1 - x * x)) / nx;
+    const double x = 2 * grid.centre(gap, n) / width - 1, share = grid.side(gap, n) / width;
+    error.profile += share * std::abs(u[at(n, 3 * nx)] / velocity - 1.5 * (1 - x * x));
   }
   const double gradient = (p[at(nx / 2, 3 * nx - 1)] - p[at(nx / 2, 3 * nx + 1)]) / (2 * grid.spacing[1]);
   error.gradient = std::abs(gradient / (12 * 0.1 * velocity / (width * width)) - 1);
@@ -61,6 +65,20 @@ TEST(Channel, ConvergesToPoiseuillesParabolaInSecondOrder) {
   EXPECT_LT(fine.gradient, 0.01);
   // The same gap along the depth of a wide column: the walls a metre apart do not reach its middle.
   EXPECT_NEAR(channel(8, 3).profile, coarse.profile, 1e-4);
+}
+
+// As many cells, smaller at the walls, where the shear is. The profile is closer to the parabola; the pressure
+// gradient, 0.88 % off instead of 0.78 %, is not. Second order where twice as many cells grow by the root of the ratio.
+TEST(GradedChannel, ConvergesInSecondOrderToAProfileCloserThanInEvenCells) {
+  const Channel even = channel(16, 2), coarse = channel(8, 2, 1.2), fine = channel(16, 2, std::sqrt(1.2));
+  record("profile, 16", fine.profile);
+  record("gradient, 16", fine.gradient);
+  record("profile, 16, even", even.profile);
+  record("gradient, 16, even", even.gradient);
+  EXPECT_NEAR(std::log2(coarse.profile / fine.profile), 2.0, 0.2);
+  EXPECT_NEAR(std::log2(coarse.gradient / fine.gradient), 2.0, 0.2);
+  EXPECT_LT(fine.profile, even.profile);
+  EXPECT_NEAR(channel(8, 3, 1.2).profile, coarse.profile, 1e-4);
 }
 
 /// The same in a pipe: U = 2 <U> (1 - (r/R)^2), 8 mu <U>/R^2; errors by area.

@@ -117,7 +117,7 @@ void FrictionalStress::charge_upwind_work(int axis, Fields& fields) const {
   double* jump = fields.stress.upwind_work[a].data();
   core::for_each_row(grid, boundaries_.moving_faces(axis, false), [&](Index begin, Index end) {
     const bool graded = axis == 1 && grid.layers;
-    const double weight = graded ? even / grid.metric->per_distance[std::size_t(begin)] : even;
+    const double weight = graded ? even / grid.metric->per_distance[1][std::size_t(begin)] : even;
     const double slow = weight / (density * wave_speed_), carried_whole = 0.5 * law_.onset * weight;
     for (Index f = begin; f < end; ++f) {
       jump[f] = 0;
@@ -161,7 +161,7 @@ void FrictionalStress::hold_surface(Fields& fields) const {
         const auto apart = [&](Index cells) {
           const auto face = [&](Index n) { return std::size_t(c + n * below + (below > 0 ? below : 0)); };
           if (axis != 1 || !grid.layers) return 1.0;
-          return grid.metric->per_distance[face(-1)] / grid.metric->per_distance[face(cells)];
+          return grid.metric->per_distance[1][face(-1)] / grid.metric->per_distance[1][face(cells)];
         };
         const double near = apart(0), far = apart(1);
         const double between = on_held ? next * far + (near + far) * under : near * under,

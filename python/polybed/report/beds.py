@@ -27,18 +27,21 @@ def coarse(values, share):
 
 
 def even_rows(run):
-    """The layer of cells in each row of a map: rows are as high as the lowest layer, where layers are graded, too."""
-    faces = run.faces["y"]
-    count = round(faces[-1] / np.diff(faces).min())
-    return np.searchsorted(faces, (np.arange(count) + 0.5) * faces[-1] / count) - 1
+    """The cells in each row and each column of a map: rows are as high as the lowest layer, where layers are graded, too, and
+    columns as wide as the narrowest cell."""
+    def even(faces):
+        size = faces[-1] - faces[0]
+        count = round(size / np.diff(faces).min())
+        return np.searchsorted(faces, faces[0] + (np.arange(count) + 0.5) * size / count) - 1
+    return even(run.faces["y"]), even(faces_across(run))
 
 
 def read_maps(run, chosen, share):
     """The maps [step][y][x] by kind and label."""
-    rows, maps = even_rows(run), {}
+    cells, maps = np.ix_(*even_rows(run)), {}
     for step in chosen:
         for key, plane in stored_maps(run, int(step)).items():
-            maps.setdefault(key, []).append(coarse(np.ma.filled(as_shown(run, plane), np.nan)[rows], share).astype(np.float32))
+            maps.setdefault(key, []).append(coarse(np.ma.filled(as_shown(run, plane), np.nan)[cells], share).astype(np.float32))
     return {key: np.stack(planes) for key, planes in maps.items()}
 
 
@@ -68,7 +71,7 @@ def maps_of(run):
     first = stored_maps(run, 0) if len(run.time) else {}
     if not first:
         return None
-    cells = len(even_rows(run)), next(iter(first.values())).shape[1]
+    cells = tuple(map(len, even_rows(run)))
     share = max(1, int(np.ceil(np.sqrt(cells[0] * cells[1] / MOST_CELLS))))
     share = min(share, *cells)
     bytes_of_step = len(first) * (cells[0] // share) * (cells[1] // share)

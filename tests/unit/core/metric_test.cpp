@@ -240,10 +240,10 @@ TEST(GradedMetric, FollowsFromTheHeights) {
       if (dimensions == 3) {
         EXPECT_NEAR(grid.metric->open[2][c], height[y], 1e-14);
       }
-      EXPECT_NEAR(grid.metric->per_height[c], 1 / height[y], 1e-14);
+      EXPECT_NEAR(grid.metric->per_length[1][c], 1 / height[y], 1e-14);
       EXPECT_NEAR(grid.metric->per_volume_on[0][c], 1 / height[y], 1e-14);
       const double distance = j == 0 ? 1 : 0.5 * (height[y - 1] + height[y]);
-      EXPECT_NEAR(grid.metric->per_distance[c], 1 / distance, 1e-14);
+      EXPECT_NEAR(grid.metric->per_distance[1][c], 1 / distance, 1e-14);
       EXPECT_NEAR(grid.metric->per_volume_on[1][c], 1 / distance, 1e-14);
       EXPECT_NEAR(open_cells_of_layer(grid, j), height[y] * 3 * grid.cells[2], 1e-13);
     }
@@ -254,12 +254,35 @@ TEST(GradedMetric, FollowsFromTheHeights) {
   }
 }
 
+// By hand: cells of 0.1, 0.15 and 0.1 m by layers of 0.1 m twice and 0.2 m; the sides of a cell over 0.1 m are factors.
+TEST(GradedMetric, FollowsFromTheWidths) {
+  Grid grid;
+  grid.cells = {3, 3, 1};
+  grid.spacing = {0.1, 0.1, 1};
+  grid.across[0] = std::make_shared<const Layers>(Layers{{0.1, 0.15, 0.1}, {0, 0.1, 0.25, 0.35}});
+  grid.layers = std::make_shared<const Layers>(Layers{{0.1, 0.1, 0.2}, {0, 0.1, 0.2, 0.4}});
+  grid.metric = metric_of(grid, ColumnShape::box);
+  const Metric& metric = *grid.metric;
+  const auto middle = std::size_t(grid.index(1, 2));
+  EXPECT_NEAR(metric.volume[middle], 3, 1e-14);
+  EXPECT_NEAR(metric.open[0][middle], 2, 1e-14);
+  EXPECT_NEAR(metric.open[1][middle], 1.5, 1e-14);
+  EXPECT_NEAR(metric.per_length[0][middle], 1 / 1.5, 1e-14);
+  EXPECT_NEAR(metric.per_distance[0][middle], 1 / 1.25, 1e-14);
+  EXPECT_NEAR(metric.per_distance[0][std::size_t(grid.index(0, 2))], 1, 1e-14);  // beyond a wall as beside it
+  EXPECT_NEAR(metric.per_volume_on[0][middle], 1 / 2.5, 1e-14);
+  EXPECT_NEAR(open_cells_of_layer(grid, 2), 7, 1e-14);
+  EXPECT_NEAR(open_faces_below(grid, 2), 3.5, 1e-14);
+  EXPECT_NEAR(grid.centre(0, 1), 0.175, 1e-14);
+  checks::expect_conserving(grid);
+}
+
 TEST(GradedMetric, OfABlockIsItsPartOfTheColumn) {
   const Grid grid = graded_grid(2), part = graded_grid(2, 2);
   for (int j = -1; j < 2; ++j) {
     const auto here = std::size_t(part.index(0, j)), there = std::size_t(grid.index(0, j + 2));
     EXPECT_EQ(part.metric->volume[here], grid.metric->volume[there]);
-    EXPECT_EQ(part.metric->per_distance[here], grid.metric->per_distance[there]);
+    EXPECT_EQ(part.metric->per_distance[1][here], grid.metric->per_distance[1][there]);
     EXPECT_EQ(part.centre(1, j), grid.centre(1, j + 2));
   }
 }
