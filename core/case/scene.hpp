@@ -22,14 +22,13 @@ struct Column {
   std::vector<std::int64_t> given_cells;  ///< likewise
   /// Height and diameter of a round column, m, upward, linear between. Two at one height are a step. Empty: uniform.
   std::vector<std::pair<double, double>> profile;
-  std::optional<double> grading, graded_above;  ///< ratio of the heights of layers above a height, m
-  std::optional<double> grading_across;         ///< ratio of the widths of neighbours, smallest at the walls
-  std::optional<double> depth;                  ///< of a 2-D column, m; else twice the largest diameter and skin
-  int dimensions = 2;                           ///< derived, like the next two
-  std::array<double, 3> size{};                 ///< width, height, depth, m (axes x, y, z; 2-D: depth is `depth`)
-  std::array<int, 3> cells{1, 1, 1};            ///< along x, y, z; 1 along z in 2-D
-  std::vector<double> layers;                   ///< derived: heights of graded layers of cells, m; empty: all alike
-  std::array<std::vector<double>, 2> across;    ///< derived: sides of graded cells along x and z, m; empty: all alike
+  std::optional<double> grading, graded_above, grading_across;  ///< ratio of heights, above a height, m; of widths
+  std::optional<double> depth;                ///< of a 2-D column, m; else twice the largest diameter and skin
+  int dimensions = 2;                         ///< derived, like the next two
+  std::array<double, 3> size{};               ///< width, height, depth, m (axes x, y, z; 2-D: depth is `depth`)
+  std::array<int, 3> cells{1, 1, 1};          ///< along x, y, z; 1 along z in 2-D
+  std::vector<double> layers;                 ///< derived: heights of graded layers of cells, m; empty: all alike
+  std::array<std::vector<double>, 2> across;  ///< derived: sides of graded cells along x and z, m; empty: all alike
   Boundary sides = Boundary::wall;
   Boundary ends = Boundary::wall;         ///< bottom and top; periodic for the DEM only
   double gravity = 9.81;                  ///< m/s2, along `down`
