@@ -91,7 +91,7 @@ def maps_of(run):
         chosen, maps = chosen[kept], {name: values[kept] for name, values in maps.items()}
     ny, nx = next(iter(maps.values())).shape[1:]
     across = faces_across(run)
-    size = [float((across[nx * share] - across[0]) * factor), float(run.faces["y"][-1] / cells[0] * rows * share * factor)]
+    size = [float((across[-1] - across[0]) / cells[1] * nx * share * factor), float(run.faces["y"][-1] / cells[0] * rows * share * factor)]
     notes = [f"{len(chosen)} of {len(run.time)} stored times"] if len(chosen) < len(run.time) else []
     notes += [f"each pixel is the mean of {share} x {share} cells"] if share > 1 else []
     notes += ["the plane at half depth"] if run.dimensions == 3 else ["both sides of the axis"] if around_axis(run) else []

@@ -34,6 +34,14 @@ def unpacked(text, kind):
     return np.frombuffer(zlib.decompress(base64.b64decode(text)), dtype=kind)
 
 
+class GradedCells(unittest.TestCase):
+    def test_rows_and_columns_of_a_map_are_as_small_as_the_smallest_cell(self):
+        run = types.SimpleNamespace(faces={"x": np.array([0, 1, 3, 4]), "y": np.array([0, 1, 2, 4])}, record={"case": ""})
+        rows, columns = beds.even_rows(run)
+        np.testing.assert_array_equal(rows, [0, 1, 2, 2])
+        np.testing.assert_array_equal(columns, [0, 1, 1, 2])
+
+
 class SampleRun(unittest.TestCase):
     """Two species in a column of 60 mm by 200 mm, 18 x 60 cells, five times from 0 to 1 s; see write_sample_run.cpp."""
 
