@@ -124,6 +124,7 @@ Grid grid_of(const Column& column, const std::shared_ptr<const Ranks>& ranks, co
   grid.layers = layers_of(column.layers, column.size[1]);
   for (std::size_t n : {0, 1}) grid.across[n] = layers_of(column.across[n], column.size[2 * n]);
   grid.periodic[0] = column.sides == core::Boundary::periodic;
+  grid.periodic[1] = column.ends == core::Boundary::periodic;
   grid.periodic[2] = column.sides == core::Boundary::periodic && column.dimensions == 3;
   Grid block = block_of(grid, ranks);
   block.metric = metric_of(block, column.shape, column.profile, walls, ducts);

@@ -56,7 +56,9 @@ void add_product(const double* matrix, const double* x, std::size_t n, std::size
 
 }  // namespace
 
-bool LayerSolver::serves(const Grid& grid) { return cells_across(grid) <= widest_layer; }
+bool LayerSolver::serves(const Grid& grid) {
+  return !grid.periodic[std::size_t(long_axis(grid))] && cells_across(grid) <= widest_layer;
+}
 
 LayerSolver::LayerSolver(const Grid& grid)
     : grid_(grid),

@@ -160,6 +160,10 @@ bool RowMeanSolver::average(const FaceSpans& coefficient, std::span<const double
     return sum / (faces * grid_.spacing[a] * grid_.spacing[a]);
   };
   for (int row = 0; row <= n[1]; ++row) up_[std::size_t(row)] = mean(1, row);
+  if (grid_.periodic[1]) {
+    joined_ = up_.front();
+    up_.front() = up_.back() = 0;
+  }
   for (int row = 0; row < n[1]; ++row) {
     const auto r = std::size_t(row);
     across_[0][r] = n[0] > 1 ? mean(0, row) : 0;
@@ -213,8 +217,42 @@ void RowMeanSolver::factorise() {
     }
 }
 
-/// Forward and backward substitution of all modes.
+/// Joined ends add c w w^T to each mode's matrix T, w = (1, 0, ..., 0, -1), c the coefficient between the top row and
+/// the bottom row. Stores z = T^-1 w.
+void RowMeanSolver::join_ends() {
+  const int nx = int(x_.rate.size()), ny = grid_.cells[1], nz = int(z_.rate.size());
+  values_.setZero();
+  for (int k = 0; k < nz; ++k) {
+    values_.row(Eigen::Index(k) * ny).array() += 1;
+    values_.row(Eigen::Index(k) * ny + ny - 1).array() -= 1;
+  }
+  sweep_rows();
+  around_.resize(std::size_t(nz) * std::size_t(nx));
+  ends_ = values_;
+  for (int k = 0; k < nz; ++k)
+    for (int m = 0; m < nx; ++m) {
+      const Eigen::Index bottom = Eigen::Index(k) * ny, top = bottom + ny - 1;
+      around_[std::size_t(k) * std::size_t(nx) + std::size_t(m)] =
+          joined_ / (1 + joined_ * (ends_(bottom, m) - ends_(top, m)));
+    }
+}
+
+/// Solves for all modes; with joined ends by (T + c w w^T)^-1 = T^-1 - c z z^T/(1 + c w^T z) (Sherman and Morrison).
 void RowMeanSolver::sweep() {
+  sweep_rows();
+  if (!grid_.periodic[1]) return;
+  const int nx = int(x_.rate.size()), ny = grid_.cells[1], nz = int(z_.rate.size());
+  for (int k = 0; k < nz; ++k)
+    for (int m = 0; m < nx; ++m) {
+      const Eigen::Index bottom = Eigen::Index(k) * ny, top = bottom + ny - 1;
+      const double pull =
+          around_[std::size_t(k) * std::size_t(nx) + std::size_t(m)] * (values_(bottom, m) - values_(top, m));
+      values_.col(m).segment(bottom, ny) -= pull * ends_.col(m).segment(bottom, ny);
+    }
+}
+
+/// Forward and backward substitution of all modes along unjoined rows.
+void RowMeanSolver::sweep_rows() {
   const int nx = int(x_.rate.size()), ny = grid_.cells[1], nz = int(z_.rate.size());
   for (int k = 0; k < nz; ++k) {
     double* v = values_.data() + std::ptrdiff_t(k) * ny * nx;
@@ -283,6 +321,7 @@ std::optional<int> RowMeanSolver::solve(const FaceSpans& coefficient, std::span<
                                         const Field& source, Field& p, double tolerance) {
   if (!average(coefficient, shift)) return std::nullopt;
   factorise();
+  if (grid_.periodic[1]) join_ends();
   if (ports_ && !ports_->setup(coefficient, shift)) return std::nullopt;
   // An iteration gains a factor of 20 or more. Stopping just within the tolerance would save one iteration in some
   // solves but leave errors as large as the tolerance; multigrid ends far below it.

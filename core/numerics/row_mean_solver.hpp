@@ -45,7 +45,9 @@ class RowMeanSolver {
   [[nodiscard]] double open_sides(const FaceSpans& coefficient, int row) const;
   void factorise();
   void precondition(const FaceSpans& coefficient, Field& r, Field& z);
+  void join_ends();
   void sweep();
+  void sweep_rows();
   void apply(const FaceSpans& coefficient, std::span<const double> shift, Field& p, Field& out);
 
   Grid grid_;
@@ -55,6 +57,9 @@ class RowMeanSolver {
   Modes x_, z_;
   std::vector<double> across_[2], up_, diagonal_;  ///< row means: along axes 0 and 2, 1 (faces), and of the shift
   std::vector<double> factor_;                     ///< 1/pivot of each mode: [layer][row][mode]
+  double joined_ = 0;                              ///< mean coefficient between top and bottom where they are joined
+  std::vector<double> around_;                     ///< then c/(1 + c w^T z) of each mode
+  Matrix ends_;                                    ///< and z, like values_
   Matrix values_, turned_;                         ///< rows of cells, or of modes: [layer * height + row][across]
   Field residual_, direction_, image_, preconditioned_;
 };
