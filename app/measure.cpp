@@ -79,7 +79,8 @@ StoredRun read_run(const std::filesystem::path& directory) {
 
 std::vector<MeasuredColumn> measured(const StoredRun& run) {
   std::vector<MeasuredColumn> found;
-  for (const auto& measure : singles(read_by(&measures::Readers::profile, measures::bed_table()), run.species)) {
+  for (const auto& measure :
+       singles(read_by(&measures::Readers::profile, measures::bed_table(run.around())), run.species)) {
     Values values;
     for (const measures::Bed& bed : run.beds) {
       const measures::Value value = measure.of(bed);

@@ -119,8 +119,9 @@ class TfmRun final : public CaseRun {
   core::ProgressLine line() override {
     const measures::WorstInvariant& worst = observers_->invariants().nearest();
     const double carried = observers_->force_balance();
-    const std::string drop =
-        carried != 0 ? fmt::format("pressure drop {:.3g} of the weight  ", carried) : std::string();
+    const std::string drop = carried != 0 && !scene_.flows_around()
+                                 ? fmt::format("pressure drop {:.3g} of the weight  ", carried)
+                                 : std::string();
     return {model_.time(),
             scene_.run.until,
             model_.last_step().step,

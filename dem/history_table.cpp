@@ -52,6 +52,7 @@ measures::Table<Told> history_table(const Parts& parts) {
                       [](const Told& t, measures::Members j) { return measures::sum_of(t.number_in, j); }});
   add(parts.feeding,
       {"in", "kg", "their mass", [](const Told& t, measures::Members j) { return measures::sum_of(t.mass_in, j); }});
+  if (parts.around) measures::add_box_flow(true, table);
   if (parts.fluid) measures::add_exit_flows(parts.exits, table);
   if (parts.outflow) measures::add_exit_masses(parts.exits, table);
   return table;
@@ -64,6 +65,7 @@ measures::Table<Told> whole_history_table() {
                         .feeding = true,
                         .compressible = true,
                         .open_sides = true,
+                        .around = true,
                         .exits = {"discharge1"}});
 }
 

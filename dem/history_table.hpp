@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "dem/measures.hpp"
-#include "measures/table.hpp"
+#include "measures/box_flow.hpp"
 
 namespace polybed::dem {
 
@@ -18,6 +18,7 @@ struct Told {
   double overflow = 0;                         ///< through sides with a given pressure, m3/s
   std::vector<double> exit_flow;               ///< of fluid and particles through each exit, m3/s
   std::vector<std::vector<double>> exit_mass;  ///< of particles that have left there, kg, [exit][species]
+  measures::BoxFlow box = {};                  ///< between joined ends in a fluid
 };
 
 /// Optional parts of a run.
@@ -26,6 +27,7 @@ struct Parts {
   bool feeding = false;                 ///< particles are fed
   bool compressible = false;            ///< the fluid is compressible
   bool open_sides = false;              ///< a discharge has a pressure
+  bool around = false;                  ///< the fluid flows through joined ends
   std::vector<std::string> exits = {};  ///< as of fluid::names_of_exits()
 };
 

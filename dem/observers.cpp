@@ -28,6 +28,7 @@ Parts parts_of(const Model& model, const core::Scene& scene) {
           .feeding = model.feeding() != nullptr,
           .compressible = coupling != nullptr && coupling->flow().compressible() != nullptr,
           .open_sides = coupling != nullptr && coupling->flow().has_open_sides(),
+          .around = scene.flows_around(),
           .exits = fluid::names_of_exits(scene)};
 }
 
@@ -167,7 +168,7 @@ Observers::Observers(const Model& model, const core::Scene& scene, const std::fi
     : model_(model),
       slabs_(slabs_of(model, scene.column)),
       exits_(model.coupling() != nullptr ? fluid::Exits(model.coupling()->flow().grid(), scene) : fluid::Exits()),
-      history_(measures::bed_table(), history_table(parts_of(model, scene)), names_of(model)),
+      history_(measures::bed_table(scene.flows_around()), history_table(parts_of(model, scene)), names_of(model)),
       particles_(directory, {model.box().size, model.box().periodic, names_of(model)}, resume_time, model.share()),
       totals_(totals_of(model)),
       invariants_(model, start ? std::move(*start) : RunStart{totals_.sum(), numbers_of(model)}, scene.dem.ledger) {
@@ -197,6 +198,7 @@ void Observers::write_history(double time) {
   double most_solids = model_.coupling() != nullptr ? model_.coupling()->most_solids() : 0;
   const fluid::Flow* flow = model_.coupling() != nullptr ? &model_.coupling()->flow() : nullptr;
   const double overflow = flow != nullptr ? flow->overflow() : 0;
+  const double fluid_flux = is_around() ? model_.coupling()->fluid_flux() : 0;
   std::vector<double> exit_flow;
   if (flow != nullptr) exit_flow = exits_.flows(time, flow->state().flux);
   core::Reduction greatest, all;
@@ -220,9 +222,35 @@ void Observers::write_history(double time) {
   bed.pressure_drop = fluid_ ? fluid_->pressure_drop() : 0;
   bed.buoyant_weight = weight_of(model_, bed, slabs_.area);
   core::on_first(model_.ranks(), [&] {
-    bed_height_ = measures::bed_height(bed.profile);
-    files_->history.write_row(history_.row(bed, told(most_solids, overflow, std::move(exit_flow))));
+    if (!is_around()) bed_height_ = measures::bed_height(bed.profile);
+    Told own = told(most_solids, overflow, std::move(exit_flow));
+    if (is_around()) own.box = box_flow(sums.profile(), fluid_flux);
+    files_->history.write_row(history_.row(bed, own));
   });
+}
+
+bool Observers::is_around() const { return model_.coupling() != nullptr && model_.box().periodic[1]; }
+
+measures::BoxFlow Observers::box_flow(const measures::ParticleProfile& profile, double fluid_flux) const {
+  const fluid::Flow& flow = model_.coupling()->flow();
+  measures::BoxFlow box{.gradient = flow.mean_gradient()};
+  const double fluid_density = flow.constants().density;
+  double mass = fluid_density, momentum = fluid_density * fluid_flux;
+  for (std::size_t j = 0; j < profile.velocity.size(); ++j) {
+    const std::vector<double>& phi = profile.solids.fraction[j];
+    const double volume = std::accumulate(phi.begin(), phi.end(), 0.0);
+    const double carried = std::inner_product(phi.begin(), phi.end(), profile.velocity[j].begin(), 0.0);
+    box.fraction.push_back(volume / double(phi.size()));
+    box.velocity.push_back(volume > 0 ? carried / volume : 0);
+    const double density = model_.materials().species()[j].density;
+    mass += (density - fluid_density) * box.fraction[j];
+    momentum += density * box.fraction[j] * box.velocity[j];
+  }
+  box.fluid = fluid_flux / box.voidage();
+  const auto& frame = model_.coupling()->frame();
+  box.mass_velocity = frame ? frame->now[1] / frame->mass : momentum / mass;
+  if (frame) box.moved = frame->velocity[1];
+  return box;
 }
 
 Told Observers::told(double most_solids, double overflow, std::vector<double> exit_flow) const {

@@ -59,6 +59,9 @@ class Observers {
   /// On the first rank.
   [[nodiscard]] Told told(double most_solids, double overflow, std::vector<double> exit_flow) const;
   void write_all_particles(double time);
+  /// Whether a fluid flows through joined ends.
+  [[nodiscard]] bool is_around() const;
+  [[nodiscard]] measures::BoxFlow box_flow(const measures::ParticleProfile& profile, double fluid_flux) const;
 
   const Model& model_;
   measures::Slabs slabs_;

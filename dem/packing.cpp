@@ -126,6 +126,10 @@ std::vector<Group> groups_of(const core::Scene& scene, const Materials& material
   std::vector<core::Extent> extents = core::stacked(parts, height);
   for (core::Extent& one : extents)
     one = {column.filled_height(below + one.low), column.filled_height(below + one.high)};
+  constexpr double rounding = 1.01;  // of the numbers of particles
+  if (scene.flows_around())
+    for (core::Extent& one : extents)
+      if (one.high < rounding * box.size[1]) one.high = std::min(one.high, box.size[1]);
   std::shared_ptr<const core::InnerWalls> walls;
   if (scene.fluid.present() && !scene.walls.empty()) {
     walls = std::make_shared<core::InnerWalls>(scene.walls, column.size, false);

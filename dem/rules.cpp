@@ -64,6 +64,16 @@ std::vector<core::Rule> key_rules() {
        [](const core::Scene& scene) {
          return core::broken_if(scene.dem.kernel == core::Kernel::bilinear && scene.dem.kernel_width.has_value());
        }},
+      {{"column.pressure_gradient", "dem.greatest_speed", "dem.fixed_step", "column.ends"},
+       "column.pressure_gradient = {} Pa/m: the speed that it gives to particles is unknown and sets their step: give "
+       "dem.greatest_speed",
+       [](const core::Scene& scene) {
+         const double* given = std::get_if<double>(&scene.column.pressure_gradient);
+         if (!scene.flows_around() || given == nullptr || scene.bed.held || scene.dem.greatest_speed ||
+             scene.dem.fixed_step)
+           return core::Broken();
+         return core::Broken({fmt::format("{:g}", *given)});
+       }},
       with_own_share("column.shape", "column.shape = \"cylinder\"",
                      [](const core::Scene& scene) { return scene.column.is_round(); }),
       with_own_share("column.grading", "column.grading",

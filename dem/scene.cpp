@@ -214,6 +214,10 @@ Speeds known_speeds(const core::Scene& scene, const Materials& materials, const 
   double first = 0;
   for (const Particle& p : start) first = std::max(first, std::hypot(p.motion.v[0], p.motion.v[1], p.motion.v[2]));
   for (const core::Feed& feed : scene.feeds) first = std::max(first, feed.velocity);
+  if (scene.flows_around()) {  // a dry fall would not end
+    const double wet = speed_in_fluid(scene, first);
+    return {wet, wet};
+  }
   const double fall = std::sqrt(first * first + 2 * scene.column.gravity * fall_height(scene, materials, box, start));
   const double shear = std::abs(box.image_speed());
   const Speeds dry{std::max(fall, shear), std::max(fall * most_passed_on(materials), shear)};

@@ -13,11 +13,11 @@
 
 namespace polybed::fluid {
 
-/// Fluid flow through the bottom and the top: none; a given velocity below and a given pressure above; or given
-/// velocities at both.
+/// Fluid flow through the bottom and the top: none from outside, also where they are joined; a given velocity below and
+/// a given pressure above; or given velocities at both.
 enum class Ends { walls, outlet, given };
 [[nodiscard]] inline Ends ends_of(const core::Scene& scene) {
-  if (scene.column.closed) return Ends::walls;
+  if (scene.column.closed || scene.flows_around()) return Ends::walls;
   const bool lid = scene.column.outlet == core::Outlet::lid;
   return scene.inlet.at == core::ColumnEnd::top || lid ? Ends::given : Ends::outlet;
 }

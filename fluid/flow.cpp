@@ -304,6 +304,13 @@ void Flow::correct(double dt) {
   boundaries_.join(fluid_.velocity, fluid_.flux);
 }
 
+void Flow::shift(const std::array<double, 3>& velocity) {
+  for (std::size_t a = 0; a < std::size_t(grid_.dimensions); ++a) {
+    for (double& u : fluid_.velocity[a]) u += velocity[a];
+    for (double& j : fluid_.flux[a]) j += velocity[a];
+  }
+}
+
 double Flow::courant(double dt) const {
   double most = 0;
   core::with_metric(grid_, [&]<class Metric>(const Metric& metric) {

@@ -67,6 +67,12 @@ class Flow {
   }
   /// Null for an incompressible fluid.
   [[nodiscard]] const Compressible* compressible() const { return compressible_ ? &*compressible_ : nullptr; }
+  /// Drives the fluid and the particles between joined ends by a mean gradient of the net pressure, Pa/m, from the next
+  /// set_gradient() on.
+  void drive(double mean_gradient) { mean_gradient_ = mean_gradient; }
+  [[nodiscard]] double mean_gradient() const { return mean_gradient_; }
+  /// Adds a velocity, m/s, to the whole fluid: the solids get the same, and nothing moves relative to anything else.
+  void shift(const std::array<double, 3>& velocity);
   /// Recomputes the pressure's gradient from the pressure, after the state was set from outside.
   void set_gradient();
   /// Starts anew: further solves do not depend on earlier ones.
@@ -101,6 +107,7 @@ class Flow {
   Boundaries boundaries_;
   Inlet inlet_;
   relevance::FluidConstants constants_;
+  double mean_gradient_ = 0;                     ///< along the height, between joined ends, Pa/m
   double gravity_, solids_density_, tolerance_;  ///< m/s2; mean, kg/m3; of the pressure's residual
   bool viscous_;                                 ///< with a viscous stress
   bool has_open_sides_;

@@ -81,6 +81,8 @@ void Flow::gradient_of(const Field& p, core::FaceField& out) {
 
 void Flow::set_gradient() {
   gradient_of(fluid_.pressure, gradient_);
+  if (mean_gradient_ != 0)
+    for (double& g : gradient_[1]) g += mean_gradient_;
   for_each_open_face([&](const OpenFace& f, std::size_t a, std::size_t at) { gradient_[a][at] += f.rise; });
 }
 

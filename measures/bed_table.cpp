@@ -49,7 +49,9 @@ Value centre_of(const Bed& bed, Members species) {
 
 }  // namespace
 
-Table<Bed> bed_table() {
+namespace {
+
+Table<Bed> whole_bed_table() {
   const Readers all{.profile = true, .drift = true, .picture = true}, and_drift{.profile = true, .drift = true},
       and_picture{.profile = true, .picture = true}, also_profiles{.profile = true},
       only_profiles{.history = false, .profile = true};
@@ -91,6 +93,20 @@ Table<Bed> bed_table() {
        "of both together; 1 mixed, 0 in layers, for any shares; size classes count as one species",
        between_species(mixing), also_profiles},
   };
+}
+
+}  // namespace
+
+Table<Bed> bed_table(bool around) {
+  Table<Bed> table = whole_bed_table();
+  for (Measure<Bed>& measure : table) {
+    if (!around || !measure.readers.profile) continue;
+    if (measure.of_species())
+      measure.of = [](const Bed&, Members) { return Value(); };
+    else
+      measure.of = [](const Bed&) { return Value(); };
+  }
+  return table;
 }
 
 Table<Beside> distance_table() {

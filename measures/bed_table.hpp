@@ -22,7 +22,8 @@ struct Bed {
 };
 
 /// Each row becomes a measure everywhere. The columns of history.csv follow this order.
-[[nodiscard]] Table<Bed> bed_table();
+/// \param around  the ends of the column are joined: what is read along the height, from a bottom, has no value
+[[nodiscard]] Table<Bed> bed_table(bool around = false);
 
 /// A profile next to another one on the same slabs.
 struct Beside {

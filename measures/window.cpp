@@ -104,7 +104,7 @@ void add_profiles(const StoredRun& run, const StoredRun& laid, const Rows& rows,
     for (std::size_t k = 0; k < profile.all.slabs(); ++k)
       of_species.push_back(*measured(profile, [j, k](const Profile& one) { return Value(one.fraction[j][k]); }));
   }
-  for (const Single<Bed>& measure : singles(read_by(&Readers::profile, bed_table()), run.species)) {
+  for (const Single<Bed>& measure : singles(read_by(&Readers::profile, bed_table(run.around())), run.species)) {
     if (const auto mean = measured(profile, [&](const Profile& one) { return measure.of({one}); }))
       found.of_mean[measure.column()] = *mean;
     const auto moved = found.means.find(measure.column());

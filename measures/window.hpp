@@ -17,6 +17,8 @@ struct StoredRun {
   core::History history = {};     ///< without columns: not stored
   std::vector<double> time = {};  ///< s, of the beds
   std::vector<Bed> beds = {};     ///< from their stored profiles
+  /// Whether it is of a box with joined ends in a fluid, which has no bottom to measure from.
+  [[nodiscard]] bool around() const { return history.find("superficial_slip_m_s") != nullptr; }
 };
 
 using Means = std::map<std::string, TimeMean>;

@@ -114,7 +114,7 @@ class BedInFluid {
       const double eps = closures::carried_voidage(f, bed_, velocity, packed);
       if (eps < 1) add_bulk(velocity, eps);
     }
-    add_freeboard(velocity);
+    if (!scene_.flows_around()) add_freeboard(velocity);
   }
 
   /// Particles that sink through the fluid while no bed is packed.

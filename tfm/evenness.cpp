@@ -28,7 +28,7 @@ double lateral_difference(const core::Grid& grid, const Fields& fields) {
 
 std::vector<std::string> warning_of_an_even_bed(const core::Grid& grid, const Fields& fields) {
   constexpr double even = 1e-4;
-  if (grid.column_cells(0) * grid.column_cells(2) == 1) return {};
+  if (grid.column_cells(0) * grid.column_cells(2) == 1 || grid.periodic[1]) return {};  // a box can be meant to be even
   const double difference = lateral_difference(grid, fields);
   if (difference > even) return {};
   return {fmt::format(

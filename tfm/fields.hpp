@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,7 @@ struct Constants {
   std::vector<closures::ShapeFactor> shape;  ///< on the drag of a lone particle; empty: all are spheres
   std::vector<double> bed_share;             ///< X_j: share of the species in the whole bed
   bool form_b = false;                       ///< the pressure's gradient acts on the fluid alone
+  std::optional<double> given_gradient;      ///< mean, of the net pressure between joined ends, Pa/m; else the weight's
   std::vector<std::string> name;
   fluid::Openings openings;  ///< where solids cross the ends of the column
 

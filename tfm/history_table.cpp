@@ -4,7 +4,7 @@
 
 namespace polybed::tfm {
 
-measures::Table<Told> history_table(bool compressible, bool openings, bool open_sides,
+measures::Table<Told> history_table(bool compressible, bool openings, bool open_sides, bool around,
                                     const std::vector<std::string>& exits) {
   measures::Table<Told> table{
       {"max_solids_fraction", "1", "greatest phi of a cell", [](const Told& t) { return t.invariants.most_solids; }},
@@ -31,11 +31,12 @@ measures::Table<Told> history_table(bool compressible, bool openings, bool open_
     table.push_back({"out", "kg", "left since the start; if solids can leave or are fed",
                      [](const Told& t, measures::Members j) { return measures::sum_of(t.out, j); }});
   }
+  if (around) measures::add_box_flow(false, table);
   measures::add_exit_flows(exits, table);
   if (openings) measures::add_exit_masses(exits, table);
   return table;
 }
 
-measures::Table<Told> whole_history_table() { return history_table(true, true, true, {"discharge1"}); }
+measures::Table<Told> whole_history_table() { return history_table(true, true, true, true, {"discharge1"}); }
 
 }  // namespace polybed::tfm

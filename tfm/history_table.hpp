@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "fluid/fluid_mass.hpp"
+#include "measures/box_flow.hpp"
 #include "measures/invariants.hpp"
 #include "measures/table.hpp"
 
@@ -18,14 +19,16 @@ struct Told {
   double overflow = 0;                         ///< through sides with a given pressure, m3/s
   std::vector<double> exit_flow;               ///< through each exit, m3/s
   std::vector<std::vector<double>> exit_mass;  ///< that has left there, kg, [exit][species]
+  measures::BoxFlow box = {};                  ///< between joined ends
 };
 
 /// The columns after the bed's.
 /// \param compressible  whether the fluid is compressible
 /// \param openings      whether an end is open to solids
 /// \param open_sides    whether a discharge has a pressure
+/// \param around        whether the ends are joined
 /// \param exits         as of fluid::names_of_exits()
-[[nodiscard]] measures::Table<Told> history_table(bool compressible, bool openings, bool open_sides,
+[[nodiscard]] measures::Table<Told> history_table(bool compressible, bool openings, bool open_sides, bool around,
                                                   const std::vector<std::string>& exits);
 /// All of them, for a list; the first discharge stands for every way out.
 [[nodiscard]] measures::Table<Told> whole_history_table();

@@ -18,6 +18,7 @@ IntegratorChoice cheapest(const core::Scene& scene, const Constants& constants, 
   if (effects.compressible) return {implicit_steps, "compressible: sound is faster than anything that matters"};
   if (constants.fluid.density < relevance::lightest_liquid)
     return {implicit_steps, "gas: drag relaxes faster than anything moves"};
+  if (scene.flows_around()) return {implicit_steps, "between joined ends the drag sets the mean flow, too"};
   if (scene.column.closed || greatest_inflow == 0) return {implicit_steps, "nothing flows in: the bed settles"};
   const double replaced = split_steps_per_implicit(scene, constants, effects, greatest_inflow);
   return {replaced > dear_above ? implicit_steps

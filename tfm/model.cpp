@@ -31,6 +31,7 @@ Constants make_constants(const core::Scene& scene, const std::shared_ptr<const c
   constants.down = scene.column.down;
   constants.fluid = relevance::fluid_constants(scene.fluid);
   constants.bed_share = scene.bed.volume_share;
+  if (const double* given = std::get_if<double>(&scene.column.pressure_gradient)) constants.given_gradient = *given;
   constants.form_b = scene.tfm.form == core::PressureForm::B;
   for (const core::Species& species : scene.species) {
     constants.diameter.push_back(species.diameter);
@@ -129,8 +130,8 @@ Made* Model::add_part(Args&&... args) {
 
 void Model::make_parts() {
   const bool implicit = integrator_.kind == core::TfmIntegrator::implicit_steps;
-  if (options_.follow_bed && !implicit && !compressible() && !transports_temperature() &&
-      !constants().openings.present())
+  if (options_.follow_bed && !implicit && !constants().grid.periodic[1] && !compressible() &&
+      !transports_temperature() && !constants().openings.present())
     add_part<FollowBed>(equations_, layout_);
   if (compressible())
     compressible_fluid_ = add_part<CompressibleFluid>(equations_, layout_, timers_);
@@ -151,6 +152,7 @@ std::optional<fluid::MassAccount> Model::fluid_account(double t) const {
 /// Starts the integrator at (time_, y_).
 void Model::begin_integration() {
   equations_.begin(time_);
+  equations_.drive(layout_, y_);
   prepare(y_);
   stepping_->find_rates(time_, y_, dydt_);
   for (const auto& part : parts_) part->begin(time_);

@@ -74,6 +74,8 @@ class Model : public core::Simulation {
   [[nodiscard]] std::vector<fluid::Passed> passed() const { return constants().openings.passed(fields().solids); }
   /// The ways out, if there are several, for the fields last shown.
   [[nodiscard]] const fluid::Exits& exits() const { return exits_; }
+  /// Between joined ends, Pa/m.
+  [[nodiscard]] double mean_gradient() const { return equations_.mean_gradient(); }
   /// Explicit or implicit steps.
   [[nodiscard]] core::TfmIntegrator integrator_kind() const { return integrator_.kind; }
   [[nodiscard]] const std::string& integrator_reason() const { return integrator_.reason; }

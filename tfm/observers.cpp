@@ -12,6 +12,7 @@
 #include "core/numerics/metric.hpp"
 #include "core/numerics/ranks.hpp"
 #include "core/output/rows.hpp"
+#include "tfm/mean_flow.hpp"
 #include "tfm/packing_limit.hpp"
 
 namespace polybed::tfm {
@@ -126,9 +127,9 @@ Observers::Observers(const Model& model, const std::filesystem::path& directory,
     : model_(model),
       ranks_(model.constants().grid.ranks.get()),
       invariants_(std::move(initial_mass), model.constants().name, rtol, model.effects().compressible != nullptr),
-      history_(measures::bed_table(),
+      history_(measures::bed_table(around()),
                history_table(model.effects().compressible != nullptr, model.constants().openings.present(),
-                             model.has_open_sides(), model.exits().names()),
+                             model.has_open_sides(), around(), model.exits().names()),
                model.constants().name) {
   const Constants& constants = model.constants();
   const bool compressible = model.effects().compressible != nullptr;
@@ -193,9 +194,10 @@ void Observers::write_history(double time) {
     bed.buoyant_weight +=
         carried * (1 - constants.fluid.density / constants.density[j]) * constants.gravity * -constants.down[1] / area;
   }
-  bed.pressure_drop = pressure_drop_of(bed.profile, constants);
+  bed.pressure_drop =
+      around() ? -model_.mean_gradient() * constants.grid.column_height() : pressure_drop_of(bed.profile, constants);
   force_balance_ = bed.buoyant_weight != 0 ? *bed.pressure_drop / bed.buoyant_weight : 0;
-  bed_height_ = measures::bed_height(bed.profile);
+  if (!around()) bed_height_ = measures::bed_height(bed.profile);
   const std::vector<measures::Value> row = history_.row(bed, told(watched, time));
   watch(bed.time, well_posed.column());
   core::on_first(ranks_, [&] { files_->history.write_row(row); });
@@ -217,6 +219,7 @@ Told Observers::told(const measures::Watched& column, double time) {
             .overflow = model_.overflow(),
             .exit_flow = model_.exits().flows(time, fields.fluid.flux),
             .exit_mass = model_.exits().passed(constants.openings, fields.solids)};
+  if (around()) told.box = box_flow(constants, model_.mean_gradient(), fields);
   for (std::vector<double>& species : told.exit_mass)
     for (std::size_t j = 0; j < species.size(); ++j) species[j] *= constants.density[j];
   for (std::size_t j = 0; j < passed.size(); ++j) {

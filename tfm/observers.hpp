@@ -58,6 +58,8 @@ class Observers {
     core::LineFile steps;
   };
 
+  /// Whether the ends are joined: there is no bottom and no top.
+  [[nodiscard]] bool around() const { return model_.constants().grid.periodic[1]; }
   /// Monitors well-posedness, which is not part of a row.
   void watch(double time, const WellPosedness& now);
   /// The invariants and the model's own values.

@@ -8,6 +8,7 @@
 #include "core/numerics/ranks.hpp"
 #include "fluid/pressure.hpp"
 #include "tfm/granular_temperature.hpp"
+#include "tfm/mean_flow.hpp"
 #include "tfm/mixture.hpp"
 #include "tfm/particle_forces.hpp"
 #include "tfm/solids_viscosity.hpp"
@@ -71,6 +72,7 @@ bool RightHandSide::evaluate(double t, const StateLayout& layout, std::span<cons
   if (effects_.fluid_stress) timed("fluid stress", [&] { effects_.fluid_stress->add(fields_); });
   timed("gravity", [&] {
     add_gravity(constants_, boundaries_, fields_);
+    if (mean_gradient_ != 0) subtract_mean_gradient(constants_, boundaries_, mean_gradient_, fields_);
     if (effects_.compressible) effects_.compressible->add_gravity(fields_.fluid, fields_.fluid_acceleration);
   });
   if (effects_.drag)
@@ -99,6 +101,12 @@ bool RightHandSide::equation_of_state() {
   if (!effects_.compressible) return true;
   const auto scope = timers_.scope("equation of state");
   return effects_.compressible->set_density(fields_.fluid);
+}
+
+void RightHandSide::drive(const StateLayout& layout, std::span<const double> y) {
+  if (!constants_.grid.periodic[1]) return;
+  layout.unpack(y, fields_.solids, fields_.fluid);
+  mean_gradient_ = tfm::mean_gradient(constants_, fields_.solids);
 }
 
 void RightHandSide::hold_solids_above(int row) {

@@ -43,6 +43,11 @@ class RightHandSide {
   [[nodiscard]] const fluid::Inlet& inlet() const { return inlet_; }
   /// Starts an integration at a time, s: a jump of the inlet at that time has happened; later ones have not.
   void begin(double t) { begin_ = t; }
+  /// Between joined ends: the mean gradient of the pressure carries the weight of this state from now on, which stays
+  /// the same. Collective.
+  void drive(const StateLayout& layout, std::span<const double> y);
+  /// That gradient, Pa/m; 0 between other ends.
+  [[nodiscard]] double mean_gradient() const { return mean_gradient_; }
   /// Sets faces with first-order flux of the solids from now on; null: none. The list must outlive its use.
   void take_first_order_on(const FaceList* faces) { first_order_ = faces; }
   /// Solves the solids' equations only below a row of cells of the column; solids above it stay unchanged.
@@ -65,7 +70,7 @@ class RightHandSide {
   Constants constants_;
   fluid::Boundaries boundaries_;
   fluid::Inlet inlet_;
-  double begin_ = 0;
+  double begin_ = 0, mean_gradient_ = 0;
   Discretisation discretisation_;
   core::Timers& timers_;
   Fields fields_;

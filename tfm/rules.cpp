@@ -191,8 +191,6 @@ std::string wrong_with_implicit_tolerance(double rtol) {
 const std::vector<core::Rule>& model_rules() {
   static const std::vector<core::Rule> all{
       for_particles({"fluid.name"}, "fluid.name = \"none\"", [](const Scene& s) { return !s.fluid.present(); }),
-      for_particles({"column.ends"}, "column.ends = \"periodic\"",
-                    [](const Scene& s) { return s.column.ends == core::Boundary::periodic; }),
       for_particles({"dem.shear_rate"}, "dem.shear_rate other than 0",
                     [](const Scene& s) { return s.column.shear_rate != 0; }),
       {{"bed.start"},

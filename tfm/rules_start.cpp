@@ -127,7 +127,7 @@ bool steps_are_implicit(const Scene& scene) {
   for (const core::Discharge& discharge : scene.discharges)
     inflow = std::max(inflow, fluid::Ramp(discharge.superficial_velocity).greatest());
   return scene.fluid.compressible() || (density && *density < relevance::lightest_liquid) || scene.column.closed ||
-         inflow == 0;
+         scene.flows_around() || inflow == 0;
 }
 
 Broken implicit_tolerance(const Scene& scene) {
@@ -182,6 +182,13 @@ std::vector<core::Rule> start_rules() {
           {{"bed.start", "effects.solids_stress"},
            "bed.start = \"settled\" needs effects.solids_stress: nothing else carries a bed of this model",
            settled_without_stress},
+          {{"bed.start", "column.ends"},
+           "bed.start = \"settled\" and column.ends = \"periodic\" contradict each other: there is no bottom that "
+           "carries the bed; use \"mixed\"",
+           [](const Scene& scene) {
+             return core::broken_if(scene.bed.start.kind == core::StartKind::settled &&
+                                    scene.column.ends == core::Boundary::periodic);
+           }},
           {{"bed.start", "bed.volume_share", "bed.particles", "species.density", "fluid."},
            "bed.start = \"settled\" needs solids heavier than the fluid",
            settled_and_light},

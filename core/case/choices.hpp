@@ -14,6 +14,10 @@ namespace polybed::core {
 enum class Boundary { wall, periodic };
 constexpr std::array<std::string_view, 2> names(Boundary) { return {"wall", "periodic"}; }
 
+/// Mean pressure gradient between joined ends, where it is not a number: it carries the weight of all that is inside.
+enum class MeanGradient { weight };
+constexpr std::array<std::string_view, 1> names(MeanGradient) { return {"weight"}; }
+
 /// Cross-section of a column. Axisymmetric: round, and everything depends on radius and height alone.
 enum class ColumnShape { box, cylinder, axisymmetric };
 constexpr std::array<std::string_view, 3> names(ColumnShape) { return {"box", "cylinder", "axisymmetric"}; }

@@ -100,6 +100,14 @@ void fill_from_layers(Scene& scene, WrongKeys& wrong) {
   if (!(scene.bed.solids_fraction > 0)) wrong.add("bed.solids_fraction");
 }
 
+/// Of a mixed start: as settled or, between joined ends in a fluid, as dense as fills the box.
+double usual_start_fraction(const Scene& scene) {
+  const Bed& bed = scene.bed;
+  if (!scene.flows_around() || bed.start.kind != StartKind::mixed || !(scene.column.size[1] > 0))
+    return bed.solids_fraction;
+  return std::min(bed.solids_fraction, bed.static_height * bed.solids_fraction / scene.column.size[1]);
+}
+
 bool is_file(const std::filesystem::path& path) {
   std::error_code error;
   return std::filesystem::exists(path, error) && !std::filesystem::is_directory(path, error);
@@ -170,7 +178,7 @@ void resolve(Scene& scene, const std::string& case_name, WrongKeys& wrong) {
     wrong.add("bed.static_height");
   }
   fill_from_layers(scene, wrong);
-  bed.start_solids_fraction = bed.start_fraction.value_or(bed.solids_fraction);
+  bed.start_solids_fraction = bed.start_fraction.value_or(usual_start_fraction(scene));
   fill_onset(scene);
 }
 

@@ -189,6 +189,14 @@ Rule joined_ends_exclude(const std::string& key, const std::string& what, bool (
           [set](const Scene& scene) { return broken_if(scene.column.ends == Boundary::periodic && set(scene)); }};
 }
 
+/// For a fluid between joined ends. \param remedy  what to do instead
+Rule flowing_around_excludes(const std::string& key, const std::string& what, const std::string& remedy,
+                             bool (*set)(const Scene&)) {
+  return {{"column.ends", key, "fluid.name", "dem.shear_rate"},
+          "column.ends = \"periodic\" in a fluid and " + what + " cannot be combined yet: " + remedy,
+          [set](const Scene& scene) { return broken_if(scene.flows_around() && set(scene)); }};
+}
+
 std::vector<Rule> end_rules() {
   return {
       joined_ends_exclude("column.closed", "column.closed = true", [](const Scene& s) { return s.column.closed; }),
@@ -199,12 +207,24 @@ std::vector<Rule> end_rules() {
       joined_ends_exclude("column.grading", "column.grading", [](const Scene& s) { return bool(s.column.grading); }),
       joined_ends_exclude("feed.species", "[[feed]]", [](const Scene& s) { return !s.feeds.empty(); }),
       joined_ends_exclude("discharge.at", "[[discharge]]", [](const Scene& s) { return !s.discharges.empty(); }),
-      {{"column.ends", "fluid.name", "dem.shear_rate"},
-       "column.ends = \"periodic\" is for particles without a fluid, or for a sheared box whose fluid moves with "
-       "its flow: set fluid.name = \"none\", or dem.shear_rate",
+      flowing_around_excludes("column.shape", "a round column", "use column.shape = \"box\"",
+                              [](const Scene& s) { return s.column.shape != ColumnShape::box; }),
+      flowing_around_excludes("column.gravity_direction", "column.gravity_direction other than down", "leave it out",
+                              [](const Scene& s) { return s.column.gravity != 0 && is_tilted(s.column); }),
+      flowing_around_excludes("fluid.equation_of_state", "a compressible fluid, whose pressure is given at a top,",
+                              "use fluid.equation_of_state = \"incompressible\"",
+                              [](const Scene& s) { return s.fluid.compressible(); }),
+      {{"column.pressure_gradient", "dem.held", "column.ends", "fluid.name"},
+       "column.pressure_gradient = \"weight\" and dem.held = true contradict each other: the fluid does not carry "
+       "particles that are held; give a number, negative for an upward flow",
        [](const Scene& scene) {
-         const Column& column = scene.column;
-         return broken_if(column.ends == Boundary::periodic && scene.fluid.present() && column.shear_rate == 0);
+         return broken_if(scene.flows_around() && scene.bed.held &&
+                          std::holds_alternative<MeanGradient>(scene.column.pressure_gradient));
+       }},
+      {{"column.pressure_gradient", "column.ends", "fluid.name", "dem.shear_rate"},
+       "column.pressure_gradient cannot act: it drives a fluid between joined ends, column.ends = \"periodic\"",
+       [](const Scene& scene) {
+         return broken_if(!scene.flows_around() && std::holds_alternative<double>(scene.column.pressure_gradient));
        }}};
 }
 

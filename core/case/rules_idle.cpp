@@ -77,6 +77,15 @@ std::vector<Rule> in_a_sheared_box() {
                     " in a sheared box: its fluid moves with its flow", {"dem.shear_rate", "fluid.name"});
 }
 
+std::vector<Rule> between_joined_ends() {
+  return cannot_act({{"inlet.superficial_velocity", "inlet.superficial_velocity", has_inlet},
+                     {"jet.superficial_velocity", "[[jet]]", has_jets},
+                     {"inlet.at", "inlet.at = \"top\"", is_given_at_the_top}},
+                    [](const Scene& scene) { return scene.flows_around(); },
+                    " between joined ends: column.pressure_gradient drives the fluid",
+                    {"column.ends", "fluid.name", "dem.shear_rate"});
+}
+
 /// For keys that give the amount or the initial density. \param random  also without effect in a randomly placed bed
 Rule idle_at_start(const std::string& key, bool random, Test set) {
   return {
@@ -130,10 +139,11 @@ std::vector<Rule> of_a_flow_rate() {
 
 std::vector<Rule> of_the_fluid() {
   return {
-      {{"inlet.superficial_velocity", "inlet.flow_rate", "fluid.name", "column.closed", "dem.shear_rate"},
+      {{"inlet.superficial_velocity", "inlet.flow_rate", "fluid.name", "column.closed", "column.ends",
+        "dem.shear_rate"},
        "inlet.superficial_velocity is missing (or give inlet.flow_rate, or set column.closed = true)",
        [](const Scene& scene) {
-         const bool flows = scene.fluid.present() && scene.column.shear_rate == 0;
+         const bool flows = scene.fluid.present() && scene.column.shear_rate == 0 && !scene.flows_around();
          return broken_if(flows && !scene.column.closed && !has_inlet(scene));
        }},
       {{"inlet.at", "column.outlet"},
@@ -168,8 +178,8 @@ std::vector<Rule> of_the_fluid() {
 
 std::vector<Rule> idle_rules() {
   std::vector<Rule> rules;
-  for (const auto& part : {without_a_fluid(), in_a_closed_column(), in_a_sheared_box(), beside_the_start(),
-                           of_a_flow_rate(), of_the_fluid()})
+  for (const auto& part : {without_a_fluid(), in_a_closed_column(), in_a_sheared_box(), between_joined_ends(),
+                           beside_the_start(), of_a_flow_rate(), of_the_fluid()})
     rules.insert(rules.end(), part.begin(), part.end());
   return rules;
 }

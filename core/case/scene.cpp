@@ -102,6 +102,10 @@ std::string text_of(const Start& start) {
 
 bool is_off(const std::string& law) { return law == "none"; }
 
+bool Scene::flows_around() const {
+  return column.ends == Boundary::periodic && column.shear_rate == 0 && fluid.present();
+}
+
 ChosenLaw Scene::law(const std::string& role) const {
   const auto found = effects.find(role);
   return found == effects.end() ? ChosenLaw() : ChosenLaw{found->second, true};

@@ -29,9 +29,9 @@ struct Column {
   std::array<int, 3> cells{1, 1, 1};          ///< along x, y, z; 1 along z in 2-D
   std::vector<double> layers;                 ///< derived: heights of graded layers of cells, m; empty: all alike
   std::array<std::vector<double>, 2> across;  ///< derived: sides of graded cells along x and z, m; empty: all alike
-  Boundary sides = Boundary::wall;
-  Boundary ends = Boundary::wall;         ///< bottom and top; periodic for the DEM only
-  double gravity = 9.81;                  ///< m/s2, along `down`
+  Boundary sides = Boundary::wall, ends = Boundary::wall;  ///< ends: bottom and top
+  std::variant<MeanGradient, double> pressure_gradient{};  ///< mean, of p between joined ends, Pa/m
+  double gravity = 9.81;                                   ///< m/s2, along `down`
   std::vector<double> gravity_direction;  ///< as the case gives it, in the order of given_size; empty: down
   std::array<double, 3> down{0, -1, 0};   ///< derived: its unit vector on the axes x, y, z
   double shear_rate = 0;                  ///< Lees-Edwards, dv_x/dy, 1/s; key of [dem]
@@ -376,6 +376,8 @@ struct Scene {
   std::vector<std::string> overrides;  ///< "key=value" of the command line, as given
   Places places;                       ///< of the keys and tables of the case: a record, not read again
 
+  /// Whether a fluid flows through joined ends: a box without bottom and top.
+  [[nodiscard]] bool flows_around() const;
   [[nodiscard]] ChosenLaw law(const std::string& role) const;
   [[nodiscard]] ChosenLaw drag() const { return law("drag"); }
   [[nodiscard]] ChosenLaw partition() const { return law("partition"); }

@@ -42,7 +42,12 @@ Table column_table() {
           key(&Column::depth, "depth", dimension::length, above(0, 1e3),
               help("of a 2-D column; default: twice the largest diameter and twice dem.skin")),
           key(&Column::sides, "sides", help("walls (fluid: no slip; solids: tfm.solids_wall), or joined")),
-          key(&Column::ends, "ends", help("bottom and top; joined in the DEM only, without a fluid")),
+          key(&Column::ends, "ends",
+              help("bottom and top; joined: a box in which what leaves at the top returns at the bottom")),
+          key(&Column::pressure_gradient, "pressure_gradient", dimension::pressure_gradient, range(-1e9, 1e9),
+              help("mean gradient of the net pressure along the height of a fluid between joined ends, negative for an "
+                   "upward flow; weight: it carries the weight of all that is in the box"),
+              equation("weight: dp/dy = -sum <phi_j> (rho_j - rho_f) g")),
           key(&Column::gravity, "gravity", dimension::acceleration, range(0, 1e3), help("acceleration of gravity")),
           key(&Column::gravity_direction, "gravity_direction", range(-1e6, 1e6),
               help("direction in the order of size, of any length; default: down; another one in the TFM needs walls, "

@@ -176,7 +176,8 @@ std::vector<std::string> unit_names() {
 }
 
 std::string unit_name(const Dimension& d) {
-  constexpr std::array<std::pair<Dimension, std::string_view>, 6> named{{{dimension::pressure, "Pa"},
+  constexpr std::array<std::pair<Dimension, std::string_view>, 7> named{{{dimension::pressure, "Pa"},
+                                                                         {dimension::pressure_gradient, "Pa/m"},
                                                                          {dimension::stiffness, "N/m"},
                                                                          {dimension::energy, "J"},
                                                                          {dimension::viscosity, "Pa s"},

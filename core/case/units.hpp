@@ -18,7 +18,7 @@ namespace dimension {
 constexpr Dimension none{}, length{1, 0, 0, 0}, time{0, 0, 1, 0}, temperature{0, 0, 0, 1}, velocity{1, 0, -1, 0},
     acceleration{1, 0, -2, 0}, density{-3, 1, 0, 0}, viscosity{-1, 1, -1, 0}, pressure{-1, 1, -2, 0},
     per_pressure{-2, 0, 1, 0}, rate{0, 0, -1, 0}, speed_squared{2, 0, -2, 0}, stiffness{0, 1, -2, 0},
-    surface_energy = stiffness, energy{2, 1, -2, 0}, volume_rate{3, 0, -1, 0};
+    surface_energy = stiffness, energy{2, 1, -2, 0}, volume_rate{3, 0, -1, 0}, pressure_gradient{-2, 1, -2, 0};
 }  // namespace dimension
 
 /// A number read from text, in SI.

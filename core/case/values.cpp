@@ -57,6 +57,12 @@ auto list(CaseValues& values, const Key& key, const toml::node& node, const Read
   return entries;
 }
 
+/// Whether a value of a key for a word or a number is a number, with a unit if the key has one.
+bool is_quantity(const Key& key, const toml::node& node) {
+  const auto text = node.value<std::string_view>();
+  return node.is_number() || (text && !(key.dimension == dimension::none) && parse_quantity(*text));
+}
+
 template <class T>
 Value value_or_none(std::optional<T> read) {
   return read ? Value(std::move(*read)) : Value{};
@@ -75,7 +81,7 @@ Value CaseValues::read(const Key& key, const toml::node& node) {
     case Kind::text:
       return value_or_none(text(key, node));
     case Kind::word_or_number:
-      return node.is_number() ? value_or_none(number(key, node)) : value_or_none(text(key, node));
+      return is_quantity(key, node) ? value_or_none(number(key, node)) : value_or_none(text(key, node));
     case Kind::numbers:
       return value_or_none(list(*this, key, node, [&](const toml::node& n) { return number(key, n); }));
     case Kind::counts:

@@ -83,6 +83,11 @@ void Coupling::write(core::Checkpoint& checkpoint, const Particles& particles, c
     checkpoint.arrays["fluid_sides"] = gathered_rows(std::move(rows.numbers), rows.width, 1, ranks_);
   }
   write_fields(checkpoint);
+  for (std::size_t a = 0; a < 3 && frame_; ++a) {
+    checkpoint.numbers[fmt::format("fluid_momentum_{}", a)] = frame_->momentum[a];
+    checkpoint.numbers[fmt::format("fluid_momentum_now_{}", a)] = frame_->now[a];
+    checkpoint.numbers[fmt::format("fluid_frame_{}", a)] = frame_->velocity[a];
+  }
   write_sum(checkpoint, ranks, "fluid_work", motion_.work());
 }
 
@@ -97,12 +102,31 @@ void Coupling::read(const Restored& from) {
       core::on_any_rank(from.ranks, core::is_first(from.ranks) && from.checkpoint.arrays.contains("fluid_loads"));
   motion_.load.assign(from.particles.owned, FluidLoad{});
   sides_.rows().clear(from.particles.owned);
+  drive(from.particles);
   if (with_fluid) {
     read_loads(from);
     read_fields(from.checkpoint);
     motion_.set_work(sum_on_first(from.ranks, from.checkpoint, "fluid_work"));
+    if (frame_ && from.same_run) read_frame(from);
   }
   if (from.same_run && sides_.present()) read_sides(from);
+}
+
+void Coupling::read_frame(const Restored& from) {
+  std::array<double, 9> numbers{};
+  core::on_first(from.ranks, [&] {
+    for (std::size_t a = 0; a < 3; ++a) {
+      numbers[a] = from.checkpoint.number(fmt::format("fluid_momentum_{}", a));
+      numbers[3 + a] = from.checkpoint.number(fmt::format("fluid_momentum_now_{}", a));
+      numbers[6 + a] = from.checkpoint.number(fmt::format("fluid_frame_{}", a));
+    }
+  });
+  core::take_from_first(from.ranks, numbers);
+  for (std::size_t a = 0; a < 3; ++a) {
+    frame_->momentum[a] = numbers[a];
+    frame_->now[a] = numbers[3 + a];
+    frame_->velocity[a] = numbers[6 + a];
+  }
 }
 
 void Coupling::read_loads(const Restored& from) {

@@ -68,6 +68,11 @@ bool shares_fluid(const core::Scene& scene, const Materials& materials, std::int
   return wish == core::FluidRanks::shared || core::grid_of(scene, nullptr).cell_count() >= worth_sharing;
 }
 
+std::optional<double> given_gradient_of(const core::Scene& scene) {
+  const double* given = std::get_if<double>(&scene.column.pressure_gradient);
+  return given != nullptr ? std::optional(*given) : std::nullopt;
+}
+
 /// Changes in a step of the fluid, on faces.
 struct FluidChange {
   const core::FaceField &velocity, &gradient;  ///< m/s, Pa/m
@@ -104,6 +109,7 @@ Coupling::Coupling(const core::Scene& scene, const Materials& materials, std::sh
       flow_(scene, core::grid_of(scene, shares_fluid(scene, materials, count) ? ranks : nullptr), pressure_tolerance),
       fraction_(materials.species().size(), core::make_field(flow_.grid())),
       at_ends_(core::make_field(flow_.grid())),
+      given_gradient_(given_gradient_of(scene)),
       width_(width_of(scene, materials, count)),
       smoothing_(core::whole_column(flow_.grid()), width_, !flow_.boundaries().has_outlet()),
       forces_(scene, materials, flow_.constants().density, flow_.constants().viscosity),
@@ -137,13 +143,69 @@ Coupling::~Coupling() = default;
 
 void Coupling::begin(Particles& particles) {
   motion_.load.assign(particles.owned, FluidLoad{});
+  drive(particles);
   take_fields();
   collect(particles);
   flow_.begin(0, phase_);
+  if (frame_) frame_->momentum = frame_->now = momentum_of(particles);
   take_fields();
   forces_.find(particles, gather_, motion_.load, own());
   sides_.begin(particles, gather_, motion_.load);
   relax(particles);
+}
+
+/// Sets the mean gradient of the pressure between joined ends: as given, or the one that carries all particles.
+void Coupling::drive(const Particles& particles) {
+  if (!flow_.grid().periodic[1]) return;
+  if (given_gradient_) return flow_.drive(*given_gradient_);
+  const std::vector<Species>& species = scatter_.species();
+  std::vector<std::int64_t> number(species.size(), 0);
+  for (std::size_t i = 0; i < particles.owned; ++i) ++number[std::size_t(particles.species[i])];
+  core::add_over_ranks(ranks_.get(), number);
+  const double box = double(flow_.grid().column_cell_count()) * flow_.grid().cell_volume();
+  double weight = 0, mass = flow_.constants().density * box;  // net_gravity() is times 1 - rho_f/rho_p
+  for (std::size_t j = 0; j < species.size(); ++j) {
+    weight += double(number[j]) * species[j].mass * motion_.net_gravity(std::int32_t(j))[1];
+    mass += double(number[j]) * species[j].mass * (1 - flow_.constants().density / species[j].density);
+  }
+  flow_.drive(weight / box);
+  const auto& joined = flow_.grid().periodic;
+  if (joined[0] && (joined[2] || flow_.grid().dimensions == 2) && !held_) frame_ = Frame{{}, {}, {}, mass};
+}
+
+/// Of particles and fluid, kg m/s. Collective. \pre the sums over particles are those of the fluid's last step
+Vector Coupling::momentum_of(const Particles& particles) const {
+  const core::Grid& grid = flow_.grid();
+  Vector sum{};
+  for (std::size_t a = 0; a < std::size_t(grid.dimensions); ++a) {
+    std::vector<double> solids, fluid;
+    for (std::size_t i = 0; i < particles.owned; ++i)
+      solids.push_back(particles.motion[i].v[a] / particles.motion[i].inverse_mass);
+    const double face = flow_.constants().density * grid.cell_volume();
+    core::for_each_row(grid, core::owned_faces(grid, int(a)), [&](Index begin, Index end) {
+      for (auto c = std::size_t(begin); c < std::size_t(end); ++c)
+        fluid.push_back(face * phase_.voidage_on[a][c] * flow_.state().velocity[a][c]);
+    });
+    sum[a] = core::sum_of_ranks(ranks_.get(), solids) + core::sum_of_ranks(grid, fluid);
+  }
+  return sum;
+}
+
+/// The voidage on faces changes a little otherwise than by what crosses them, as averages over particles are not exact,
+/// and its momentum with it. Nothing would take that up again in a box without walls: all is moved by one velocity.
+void Coupling::keep_momentum(Particles& particles) {
+  Frame& frame = *frame_;
+  const Vector found = momentum_of(particles);
+  Vector back{};
+  for (std::size_t a = 0; a < std::size_t(flow_.grid().dimensions); ++a)
+    back[a] = (frame.momentum[a] - found[a]) / frame.mass;
+  for (std::size_t i = 0; i < particles.owned; ++i) {
+    motion_.account_coupling(particles.motion[i], back);
+    for (std::size_t a = 0; a < 3; ++a) particles.motion[i].v[a] += back[a];
+  }
+  flow_.shift(back);
+  for (std::size_t a = 0; a < 3; ++a) frame.velocity[a] += back[a];
+  frame.now = momentum_of(particles);
 }
 
 void Coupling::find_forces(const Particles& particles, std::uint64_t timed) {
@@ -200,6 +262,7 @@ void Coupling::advance(Particles& particles, double t, Arrivals arrivals) {
   ++steps_;
   const auto scope = timers_.scope("fluid: two-way coupling");
   if (!held_) couple_two_way(particles);
+  if (frame_) keep_momentum(particles);
   for (FluidLoad& load : motion_.load) load.impulse = {};
   take_fields();
   forces_.find(particles, gather_, motion_.load, own());

@@ -104,6 +104,17 @@ class Coupling final : public KeptPart {
   [[nodiscard]] double kernel_width() const { return width_; }
   /// Mean net pressure on the distributor minus the outlet's, Pa. Collective.
   [[nodiscard]] double pressure_drop() const;
+  /// Mean over the box of voidage times vertical velocity of the fluid, m/s. Collective.
+  [[nodiscard]] double fluid_flux() const;
+  /// A box with nothing but joined faces whose weight the pressure carries: its momentum stays what it was.
+  struct Frame {
+    Vector momentum{};  ///< of particles and fluid at the start, kg m/s
+    Vector now{};       ///< after the last step of the fluid
+    Vector velocity{};  ///< by which all has been moved since the start to keep the momentum, m/s
+    double mass = 0;    ///< of particles and fluid, kg
+  };
+  /// Empty for other boxes.
+  [[nodiscard]] const std::optional<Frame>& frame() const { return frame_; }
   /// Largest solids fraction in a cell of this rank's block.
   [[nodiscard]] double most_solids() const;
   /// The fluid of the whole column, on every rank. Collective.
@@ -127,10 +138,14 @@ class Coupling final : public KeptPart {
  private:
   void write_fields(core::Checkpoint& checkpoint) const;
   void read_loads(const Restored& from);
+  void read_frame(const Restored& from);
   void read_fields(const core::Checkpoint& checkpoint);
   void read_sides(const Restored& from);
   void collect(const Particles& particles);
   void require_voidage() const;
+  void drive(const Particles& particles);
+  [[nodiscard]] Vector momentum_of(const Particles& particles) const;
+  void keep_momentum(Particles& particles);
   void smooth(core::FaceField& field) const;
   void smooth_sums();
   [[nodiscard]] bool has_sloping_walls() const;
@@ -163,6 +178,8 @@ class Coupling final : public KeptPart {
   std::vector<core::Field> fraction_here_;
   core::FaceField velocity_here_, gradient_here_;
   std::array<core::Field, 3> vorticity_, vorticity_here_;  ///< empty if no effect needs it
+  std::optional<double> given_gradient_;  ///< mean, of the net pressure between joined ends, Pa/m; else the weight's
+  std::optional<Frame> frame_;
   double width_;
   fluid::Smoothing smoothing_;
   ParticleForces forces_;

@@ -43,7 +43,7 @@ std::string smearing_warning(const core::Scene& scene, double width) {
   // of 0.11, 0.15, 0.22 and 0.44 of its height (docs/record/validation.md).
   constexpr double lost_by_width = 0.4, noticeable = 0.1;
   const double height = scene.bed.static_height, lost = height > 0 ? lost_by_width * width / height : 0;
-  if (scene.dem.kernel_width || lost < noticeable) return "";
+  if (scene.dem.kernel_width || scene.flows_around() || lost < noticeable) return "";
   return fmt::format(
       "the fluid sees the particles averaged over {:.3g} mm, in a bed of {:.3g} mm: near the top it sees a thinner "
       "bed, and its drag is some {:.0f} % too small; a higher bed suffers less",

@@ -37,8 +37,24 @@ double Coupling::most_solids() const {
   return most;
 }
 
+double Coupling::fluid_flux() const {
+  const core::Grid& grid = flow_.grid();
+  const Field& u = flow_.state().velocity[1];
+  const auto s = std::size_t(grid.stride(1));
+  std::vector<double> flux;
+  core::for_each_row(grid, [&](Index begin, Index end) {
+    for (auto c = std::size_t(begin); c < std::size_t(end); ++c) {
+      double eps = 1;
+      for (const Field& phi : fraction_) eps -= phi[c];
+      flux.push_back(eps * 0.5 * (u[c] + u[c + s]));
+    }
+  });
+  return core::sum_of_ranks(grid, flux) / double(grid.column_cell_count());
+}
+
 double Coupling::pressure_drop() const {
   const core::Grid& grid = flow_.grid();
+  if (grid.periodic[1]) return -flow_.mean_gradient() * grid.column_height();
   const Field& p = flow_.state().pressure;
   const double at_top = flow_.boundaries().has_outlet() ? 0.5 : 1;  // p = 0 half a cell above an outlet
   double sum = 0;

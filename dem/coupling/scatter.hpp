@@ -38,6 +38,7 @@ class Scatter {
   /// \param exchange  with the owners of the blocks; null: every rank has the whole column
   void give(const core::Ranks* ranks, const GridExchange* exchange, bool open_top, fluid::ParticlePhase& phase,
             std::vector<core::Field>& fraction);
+  [[nodiscard]] const std::vector<Species>& species() const { return species_; }
 
  private:
   /// Sums on a face, in this order.

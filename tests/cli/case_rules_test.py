@@ -4,6 +4,7 @@ import re
 
 import program
 from feed_rules import FEEDS, feeds
+from joined_rules import AIR, AT_TOP, JOINED, JOINED_IN_FLUID, TILTED, jets
 from layer_rules import COUNTED, LAYERS
 from port_rules import PORTS, PORTS_FOR_ONE_MODEL
 from resolve_rules import RESOLVED
@@ -43,15 +44,9 @@ def on(role, law=None):
     return f"effects.{role}={law or LAWS[role]}"
 
 
-AIR, TILTED = ["fluid.name=air", "fluid.equation_of_state=ideal_gas"], "column.gravity_direction=[1,-1]"
-AT_TOP = ('inlet.at = "top"', "inlet.at=top")
-JOINED, SHEARED = "column.ends=periodic", "dem.shear_rate=1"
+SHEARED = "dem.shear_rate=1"
 FLOW = ["inlet.superficial_velocity=!", "inlet.flow_rate=1e-5"]
 SIZES = 'species=[{name="fine", density=1395, distribution="lognormal", median=1e-8, deviation=1}]'
-
-
-def jets(*parts):
-    return "jet=[" + ", ".join(f"{{from={a}, to={b}, superficial_velocity=0.1}}" for a, b in parts) + "]"
 
 
 def pairs(*between):
@@ -79,10 +74,9 @@ KEYS = {
     'level surface: use inlet.at = "top", or column.closed = true without inlet.superficial_velocity and [[jet]]': [TILTED],
     **{f'column.ends = "periodic" and {what} contradict each other': [JOINED, setting] for what, setting in (("[[feed]]", feeds("")),
         ("column.closed = true", "column.closed=true"), ("column.grading", GRADED), *((f'column.outlet = "{a}"', f"column.outlet={a}") for a in ("open", "lid")))},
-    'column.ends = "periodic" is for particles without a fluid, or for a sheared box whose fluid moves with its flow: set '
-    'fluid.name = "none", or dem.shear_rate': [JOINED],
     'dem.shear_rate = {} 1/s needs column.sides = "periodic"': [SHEARED],
     'dem.shear_rate = {} 1/s needs column.ends = "periodic"': [SHEARED],
+    **JOINED_IN_FLUID,
     "dem.shear_rate = {} 1/s needs column.gravity = 0, it is {} m/s2": [SHEARED],
     "jet.from and jet.to have {} and {} numbers: {} here": [jets(([0.01, 0], [0.02]))],
     "a jet from {} to {} m {}": [jets(([0.01], [0.07]))],
@@ -168,7 +162,6 @@ ONE_MODEL = {
         *NO_FLUID, "column.gravity_direction=[1, 0, -1]", "bed.static_height=0.002", *ROUND],
     CONTACT: ["effects.contact=none"],  # a case that is not meant for particles has no note of it
     'fluid.name = "none"' + TFM_CANNOT: NO_FLUID,
-    'column.ends = "periodic"' + TFM_CANNOT: [*NO_FLUID, JOINED],
     "dem.shear_rate other than 0" + TFM_CANNOT: [*NO_FLUID, JOINED, "column.sides=periodic", "column.gravity=0", SHEARED],
     'bed.start = "{}"' + TFM_CANNOT: ["bed.start=random"],
     'column.gravity_direction other than down without column.closed = true or inlet.at = "top"' + TFM_CANNOT: [*NO_FLUID, TILTED],

@@ -84,6 +84,11 @@ class Ranks(Scratch):
     def test_a_deep_bed_with_joined_sides_is_the_same(self):
         self.check_equal(*DEEP, *FIXED, case=self.write("deep.toml", case_without("depth")))
 
+    def test_a_box_with_joined_ends_is_the_same(self):
+        case = self.write("joined.toml", case_without(("superficial_velocity", "[inlet]", "start")))
+        self.check_equal("--set", "column.cells=[12,60]", "--set", 'column.ends="periodic"', "--set", 'column.sides="periodic"',
+                         *FIXED, "--set", "tfm.fixed_step=2e-4", "--set", "run.until=0.01", case=case)
+
     def test_a_tapered_bed_is_the_same(self):
         """Cells that the wall closes lie on both sides of every cut."""
         case = CASE.parents[1] / "templates/tapered-bed/case.toml"
