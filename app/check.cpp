@@ -109,6 +109,9 @@ Derived derive(const core::Scene& scene, const tfm::Model& model) {
 /// \param weight  of the bed in the fluid, Pa
 std::string weight_text(const core::Scene& scene, const BedOfCase& bed, double weight) {
   std::string is = weight < 0 ? "upwards in the fluid" : "in the fluid: the pressure drop of the fluidised bed";
+  if (bed.joined)
+    is = bed.joined->by_weight ? "in the fluid, carried by the mean gradient of the pressure"
+                               : "in the fluid; column.pressure_gradient gives what acts against it";
   if (scene.column.is_tapered()) is = "in the fluid, settled; less once it expands into a wider part";
   if (bed.lift && scene.column.is_tapered())
     is = fmt::format("in the fluid, settled; pressure drop between that and {:.4g} Pa, if expanded evenly", *bed.lift);
@@ -157,7 +160,7 @@ void print_requirements(const core::Scene& scene, const Requirements& need) {
               mega * need.memory.total(), mega * need.memory.state, mega * need.memory.fields,
               mega * need.memory.solver, mega * need.memory.program);
   core::print("time scales of the bed, from the case alone:\n");
-  print_state("at rest", need.rest);
+  print_state(scene.flows_around() ? "even" : "at rest", need.rest);
   if (need.expanded.solids_fraction != need.rest.solids_fraction) {
     print_state("lifted", need.lifted);
     print_state("expanded", need.expanded);

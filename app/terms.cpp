@@ -36,6 +36,15 @@ const std::vector<Term>& terms() {
        "the bed by the balance of forces, without a run: its state and height by the drag law of the case, and the "
        "heights by laws that were made from such beds; layers add up, as if they stay apart",
        "polybed explain drag says which law suits which bed"},
+      {"box", "line of the card",
+       "a box with column.ends = \"periodic\" in a fluid: what is joined, its solids fraction, and the mean gradient "
+       "of "
+       "the net pressure that drives it; of a run also the velocity of its centre of mass",
+       "column.pressure_gradient"},
+      {"slip", "line of the card",
+       "in such a box: mean velocity of the fluid less that of each species; superficial: times the mean voidage, over "
+       "all solids by volume",
+       "polybed check says which slips the drag law gives to an even suspension"},
       {"expands by", "line of the card",
        "superficial velocities at which the bed is so much higher than settled, from the least to the greatest of the "
        "laws that were made from such beds",

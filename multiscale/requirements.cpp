@@ -116,7 +116,7 @@ void estimate_steps(const core::Scene& scene, const tfm::Model& model, Requireme
     bed.step = scene.tfm.fixed_step.value_or(std::min(step, longest));
     return bed;
   };
-  const double rest = scene.bed.solids_fraction;
+  const double rest = scene.flows_around() ? scene.bed.start_solids_fraction : scene.bed.solids_fraction;
   need.rest = need.lifted = need.expanded = state(rest);
   if (!scene.drag().given || !(velocity > 0)) return;
   const double expanded = tfm::expanded_fraction(constants, relevance::drag_law_of(scene), velocity, rest);

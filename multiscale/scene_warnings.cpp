@@ -178,7 +178,7 @@ bool is_thin(const core::Scene& scene) {
 /// Warns if the settled bed or the whole column has too few rows of cells.
 void warn_of_coarse_grid(const core::Scene& scene, Lines& warnings) {
   const double row = scene.column.cell(1), bed = scene.bed.static_height;
-  if (scene.bed.held || !scene.feeds.empty() || !(bed > 0)) return;
+  if (scene.bed.held || !scene.feeds.empty() || scene.flows_around() || !(bed > 0)) return;
   if (const double rows = bed / row; rows < least_rows || scene.column.cells[1] < least_rows)
     warnings.push_back(fmt::format(
         "column.cells: the settled bed of {:.3g} mm is {:.2g} rows of cells high, {:.3g} mm each: heights are "
@@ -204,7 +204,7 @@ void warn_of_fine_grid(const core::Scene& scene, Lines& warnings) {
   for (const std::size_t axis : {0, 2})
     if (scene.column.cells[axis] > 1) least = std::min(least, scene.column.cell(axis));
   const double largest = core::largest_diameter(scene);
-  const bool thin = is_thin(scene) && !scene.bed.held && scene.feeds.empty();
+  const bool thin = is_thin(scene) && !scene.bed.held && scene.feeds.empty() && !scene.flows_around();
   if (thin && scene.bed.static_height >= least_rows * least)
     warnings.push_back(fmt::format(
         "column.cells: the settled bed of {:.3g} mm is {:.2g} of the largest diameters high: no grid has both rows of "

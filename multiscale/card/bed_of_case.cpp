@@ -13,6 +13,7 @@
 #include "measures/table.hpp"
 #include "multiscale/card/discharge.hpp"
 #include "multiscale/card/first_steady.hpp"
+#include "multiscale/card/joined_box.hpp"
 #include "multiscale/card/layer_bed.hpp"
 #include "relevance/advised_drag.hpp"
 #include "relevance/drag_law.hpp"
@@ -263,6 +264,12 @@ BedOfCase bed_without_expansion(const core::Scene& scene, const Slices& slices) 
   if (share.empty()) return bed;
   const bool gas = fluid.density < relevance::lightest_liquid;
   const CarriedBed mixture = mixture_of(scene, share, fluid, gravity);
+  if (scene.flows_around()) {
+    bed.joined = joined_box_of(scene, balance, share);
+    bed.own.law = balance.name;
+    for (SpeciesInFluid& one : bed.species) one.minimum_fluidisation.reset();
+    return bed;
+  }
   bed.own = {balance.name, balance.minimum_fluidisation(mixture), {}};
   add_spread(balance, mixture, bed);
   const bool flows = !scene.column.closed && !(scene.inlet.superficial_velocity.empty() && scene.jets.empty());

@@ -74,7 +74,17 @@ struct PartedBed {
   std::vector<std::string> leaving;  ///< species that reach the top of the column
 };
 
+/// A box with joined ends in a fluid: it has no bottom and no top.
+struct JoinedBox {
+  double fraction = 0;                                     ///< of the solids
+  double gradient = 0;                                     ///< mean, of the net pressure, Pa/m
+  bool by_weight = true;                                   ///< it carries the solids; else the case gives it
+  std::vector<std::pair<std::string, double>> slips = {};  ///< of the fluid over each species while even, m/s; or none
+  std::optional<double> superficial_slip = {};             ///< of the fluid over the mean of the solids, m/s
+};
+
 struct BedOfCase {
+  std::optional<JoinedBox> joined;  ///< then only terminal velocities, law, masses and this are known
   std::vector<SpeciesInFluid> species;
   ByLaw own;                  ///< from the law of the case
   std::vector<ByLaw> others;  ///< from laws derived from such beds

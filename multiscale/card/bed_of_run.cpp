@@ -197,6 +197,18 @@ void judge_drift(const core::Scene& scene, const Window& window, BedOfRun& bed) 
   for (const measures::DriftOfMeasure& drift : bed.drifts) bed.steady = bed.steady.value_or(true) && drift.steady;
 }
 
+/// A box with joined ends: nothing is read along its height.
+BedOfRun::Joined joined_of(const std::vector<measures::Kind>& kinds, const Window& window) {
+  BedOfRun::Joined joined;
+  for (const measures::Kind& kind : kinds)
+    if (const std::optional<TimeMean> slip = window.mean("slip_" + kind.name + "_m_s"))
+      joined.slips.emplace_back(kind.name, *slip);
+  joined.superficial_slip = window.mean("superficial_slip_m_s");
+  if (const Series* gradient = window.history.find("pressure_gradient_Pa_m")) joined.gradient = last(*gradient);
+  if (const Series* velocity = window.history.find("mass_velocity_m_s")) joined.mass_velocity = last(*velocity);
+  return joined;
+}
+
 }  // namespace
 
 std::string name_of(Layers layers) {
@@ -214,6 +226,15 @@ BedOfRun bed_of_run(const core::Scene& scene, const core::History& history) {
   const Inventory all = inventory_of(scene, window);
   constexpr double least_particles = 10;  // listed particles: fewer are not a bed
   if (scene.bed.start.kind == core::StartKind::list && all.particles < least_particles) return bed;
+  if (scene.flows_around()) {
+    std::vector<std::string> names;
+    for (const core::Species& species : scene.species) names.push_back(species.name);
+    bed.joined = joined_of(measures::kinds_of(names), window);
+    for (const measures::Kind& kind : measures::named_species(names))
+      if (const Series* mass = history.find("mass_" + kind.name + "_kg"))
+        bed.masses.emplace_back(kind.name, last(*mass));
+    return bed;
+  }
   bed.height = window.mean("bed_height_m");
   bed.dense = window.mean("dense_height_m");
   bed.pressure = window.mean("pressure_drop_Pa");

@@ -45,6 +45,13 @@ struct BedOfRun {
     std::map<std::string, double> out;       ///< kg since the start, by kind
   };
   std::vector<Exit> exits;
+  /// Of a box with joined ends in a fluid: see measures/box_flow.hpp.
+  struct Joined {
+    std::vector<std::pair<std::string, measures::TimeMean>> slips;  ///< by kind, m/s
+    std::optional<measures::TimeMean> superficial_slip;             ///< m/s
+    double gradient = 0, mass_velocity = 0;                         ///< in the last row, Pa/m, m/s
+  };
+  std::optional<Joined> joined;
   std::optional<double> discharge;  ///< kg/s, from a hopper
   bool blocked = false;             ///< its opening is blocked
   std::optional<bool> steady;       ///< empty: too few rows

@@ -10,6 +10,7 @@
 
 #include "closures/hopper_discharge.hpp"
 #include "core/progress.hpp"
+#include "multiscale/card/joined_box.hpp"
 #include "multiscale/card/velocity_text.hpp"
 #include "multiscale/program.hpp"
 
@@ -258,6 +259,7 @@ void write_card(core::Json& json, const core::Scene& scene, const Card& card) {
       {"time_s", {{"taken", core::or_null(card.taken)}, {"predicted", card.predicted.expected}}},
       {"lines", result_lines(card)},
   });
+  if (seen.joined) json["card"].update(json_of(*seen.joined));
   for (const BedOfRun::Exit& exit : seen.exits)
     json["card"]["exits"][exit.name] = {{"flow_m3_s", json_of(exit.flow)}, {"out_kg", json_or_null(exit.out)}};
   json["drift"] = drift_of(seen);
@@ -297,11 +299,13 @@ void write_expected(core::Json& json, const core::Scene& scene, const BedOfCase&
       {"validity", core::text_or_null(bed.validity)},
       {"discharge_kg_s", bed.discharge ? core::Json(bed.discharge->rate) : core::Json()},
   });
+  if (bed.joined) json["expected"].update(json_of(*bed.joined));
 }
 
 std::vector<std::string> expectation_lines(const core::Scene& scene, const BedOfCase& bed) {
   std::vector<std::string> lines;
   const double top = scene.column.size[1];
+  if (bed.joined) add_joined_box(scene, *bed.joined, bed.own.law, lines);
   if (bed.state != Fluidisation::unknown) {
     std::string text = words_of(bed.state);
     if (bed.packed_drop && *bed.packed_drop > 0) text += fmt::format(", pressure drop {:.4g} Pa", *bed.packed_drop);
@@ -351,6 +355,7 @@ std::vector<std::string> result_lines(const Card& card) {
   const BedOfRun& seen = card.seen;
   std::vector<std::string> lines;
   if (const std::string text = bed_text(seen); !text.empty()) lines.push_back(card_line("bed", text));
+  if (seen.joined) add_slips(*seen.joined, lines);
   add_velocities(card.expected, false, lines);
   if (!seen.masses.empty()) lines.push_back(card_line("solids", masses_text(seen.masses) + depth_text(card.expected)));
   if (seen.mixing)
