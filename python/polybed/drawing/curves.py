@@ -91,8 +91,11 @@ def of_species(run, title, unit, values, **more):
 
 
 def heights(run, columns=None):
-    """Centres of the species and levels in the bed, of these columns if some are named."""
+    """Centres of the species and levels in the bed, of these columns if some are named; in a box without ends the slips instead."""
     history, t = run.history, run.history["time_s"]
+    slips = {name: history[f"slip_{name}_m_s"] for name in run.kinds if f"slip_{name}_m_s" in history}
+    if slips:
+        return of_species(run, "slip of the fluid", "m/s", slips)
     lines = [Line(f"centre of {name}", t, history[f"centre_{name}_m"], n) for n, name in enumerate(run.kinds) if f"centre_{name}_m" in history]
     lines += [Line(label, t, history[column], dash=dash) for column, label, dash in levels(history) if columns is None or column in columns]
     return [Panel("height", "m", lines, height=2.4, scale=length_unit(run))] if lines else []
@@ -100,7 +103,7 @@ def heights(run, columns=None):
 
 def balance(run):
     ratio = drop_over_weight(run.history)
-    return [] if ratio is None else [Panel("pressure drop over weight", "1", [Line("1: the fluid carries the bed", run.history["time_s"], ratio)],
+    return [] if ratio is None or not np.isfinite(ratio).any() else [Panel("pressure drop over weight", "1", [Line("1: the fluid carries the bed", run.history["time_s"], ratio)],
                                            zero=False, height=1.2)]
 
 
