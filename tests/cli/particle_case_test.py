@@ -44,7 +44,7 @@ class ParticleCase(Scratch):
         self.ends(WRONG_CASE, "inversion", case)
 
     def test_every_key_is_refused_alone(self):
-        for given in ("fluid.name=none", "column.ends=periodic", "column.gravity_direction=[1,0]", "bed.start=random",
+        for given in ("fluid.name=none", "column.gravity_direction=[1,0]", "bed.start=random",
                       "dem.shear_rate=1"):
             done = self.ends(WRONG_CASE, "tfm", CASE, "--set", given, "-o", self.folder / "run")
             self.assertIn(given.split("=")[0], done.stderr)

@@ -224,10 +224,19 @@ TEST(ParticleCase, TheFluidOfAShearedBoxIsItsFlow) {
               HasSubstr("inlet.superficial_velocity cannot act in a sheared box"));
 }
 
-TEST(ParticleCase, EndsAreJoinedOnlyWithoutAFluid) {
-  std::string text = dry_case({"ends = \"periodic\"", {}, {}, {}, {}, "[inlet]\nsuperficial_velocity = 0.1"});
-  text.replace(text.find("\"none\""), 6, "\"water\"");
-  EXPECT_THAT(refusal_of(text), HasSubstr("column.ends = \"periodic\" is for particles without a fluid"));
+TEST(ParticleCase, JoinedEndsTakeNoInletAndNoFeed) {
+  const auto wet = [](const std::string& column, const std::string& more) {
+    std::string text = dry_case({"ends = \"periodic\"" + column, {}, {}, {}, {}, more});
+    return text.replace(text.find("\"none\""), 6, "\"water\"\ntemperature = \"20 degC\"");
+  };
+  EXPECT_EQ(refusal_of(wet("", "")), "");
+  EXPECT_THAT(refusal_of(wet("", "[inlet]\nsuperficial_velocity = 0.1")),
+              HasSubstr("inlet.superficial_velocity cannot act between joined ends"));
+  EXPECT_THAT(refusal_of(wet("\npressure_gradient = \"10 Pa\"", "")), HasSubstr("expected a value in Pa/m"));
+  EXPECT_THAT(refusal_of(wet("\npressure_gradient = \"weigth\"", "")), HasSubstr("did you mean \"weight\"?"));
+  const Scene scene = parse_case(wet("\npressure_gradient = \"-2 kPa/m\"", ""), "case.toml", {}, {});
+  EXPECT_EQ(std::get<double>(scene.column.pressure_gradient), -2000);
+  EXPECT_THAT(resolved_case(scene), HasSubstr("pressure_gradient = -2000"));
   Lines feed;
   feed.column = "ends = \"periodic\"";
   feed.more = "[[feed]]\nspecies = \"fine\"\nvelocity = 1\nsuperficial_velocity = 0.1";

@@ -29,8 +29,7 @@ std::string refusal(const std::function<void(core::Scene&)>& change) {
 TEST(ParticleScene, IsRefusedByTheTwoFluidModel) {
   EXPECT_EQ(refusal([](core::Scene&) {}), "");
   EXPECT_THAT(refusal([](core::Scene& s) { s.fluid.name = "none"; }), HasSubstr("fluid.name = \"none\""));
-  EXPECT_THAT(refusal([](core::Scene& s) { s.column.ends = core::Boundary::periodic; }),
-              HasSubstr("column.ends = \"periodic\""));
+  EXPECT_EQ(refusal([](core::Scene& s) { s.column.ends = core::Boundary::periodic; }), "");
   EXPECT_THAT(refusal([](core::Scene& s) { s.column.down = {0.6, -0.8, 0}; }), HasSubstr("column.gravity_direction"));
   EXPECT_THAT(refusal([](core::Scene& s) { s.column.down = {0, 1, 0}; }), HasSubstr("column.gravity_direction"));
   EXPECT_THAT(refusal([](core::Scene& s) { s.column.shear_rate = -1; }), HasSubstr("dem.shear_rate"));
