@@ -376,8 +376,7 @@ struct Scene {
   std::vector<std::string> overrides;  ///< "key=value" of the command line, as given
   Places places;                       ///< of the keys and tables of the case: a record, not read again
 
-  /// Whether a fluid flows through joined ends: a box without bottom and top.
-  [[nodiscard]] bool flows_around() const;
+  [[nodiscard]] bool flows_around() const;  ///< whether a fluid flows through joined ends, without bottom and top
   [[nodiscard]] ChosenLaw law(const std::string& role) const;
   [[nodiscard]] ChosenLaw drag() const { return law("drag"); }
   [[nodiscard]] ChosenLaw partition() const { return law("partition"); }
@@ -389,8 +388,7 @@ struct Scene {
 /// Whether a role has a law or is left to the chooser.
 [[nodiscard]] inline bool acts(const Scene& scene, const std::string& role) { return scene.law(role).acts(); }
 
-/// Whether every species is of spheres.
-[[nodiscard]] bool all_spheres(const Scene& scene);
+[[nodiscard]] bool all_spheres(const Scene& scene);  ///< in every species
 
 /// Gives walls and all species one friction, one restitution.
 void set_friction(Scene& scene, double friction);
