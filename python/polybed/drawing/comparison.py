@@ -7,15 +7,12 @@ from pathlib import Path
 import matplotlib.pyplot as plt
 import numpy as np
 
-from polybed.drawing import particles
+from polybed.drawing import inversion_scan, particles
 from polybed.drawing.curves import heights, recovery
 from polybed.drawing.maps import axes_at, draw_bar, draw_map, fractions, frame, map_size
 from polybed.drawing.history import key
-from polybed.drawing.inversion_scan import commands as scan_command
-from polybed.drawing.inversion_scan import on_ranks
-from polybed.drawing.inversion_scan import tables as scan_tables
 from polybed.drawing.profiles import shown_top
-from polybed.drawing.style import COLOURS, NAMES, PALE, drop_over_weight, length_unit
+from polybed.drawing.style import NAMES, PALE, colour, drop_over_weight, length_unit
 from polybed.files import read_json
 from polybed.page import Html, file_name, listing, markup, page, picture, section, source, table, warnings
 from polybed.quantities import measure_words
@@ -23,16 +20,12 @@ from polybed.read import nearest, read, stored_times
 from polybed.folder import title_of_case
 from polybed.runner import words_of
 from polybed.study.recovery import is_recovery
-from polybed.study.scores import RECOVERY, measure_cells, with_error
+from polybed.study.scores import RECOVERY, measure_cells, top_text, with_error
 
 LINES = {"tfm": "-", "dem": "--"}
 DOTS = {"tfm": (0, (1, 2)), "dem": (0, (1, 5))}  # of the interface, which no species has a colour for
 MAP_HEIGHT = 4.0  # inches
 GAP, LEFT, HEAD, BARS = 0.35, 0.75, 0.7, 0.9  # inches
-
-
-def colour(n):
-    return COLOURS[n % len(COLOURS)]
 
 
 def panels_at(runs, time):
@@ -96,14 +89,12 @@ def draw_profiles(runs, means):
                       label=NAMES[model] + ("" if told else ", too few profiles for a band"))
             axes.fill_betweenx(height, mean - error, mean + error, color=colour(n), alpha=0.2, linewidth=0,
                                label=f"{NAMES[model]}: 95 % interval of the mean" if told else None)
-            axes.set_title(name)
-            axes.set_xlabel("solids fraction")
+            axes.set(title=name, xlabel="solids fraction")
             axes.legend(fontsize=7)
     if not drawn:
         plt.close(figure)
         return None
-    all_axes[0][0].set_ylabel(f"height ({unit})")
-    all_axes[0][0].set_ylim(0, top * factor)
+    all_axes[0][0].set(ylabel=f"height ({unit})", ylim=(0, top * factor))
     return figure
 
 
@@ -142,10 +133,10 @@ def commands(found, records, scan=None):
     case = found["case"]
     lines = []
     for model, record in records.items():
-        words = [*on_ranks(record["ranks"]), "polybed", model, case, *words_of(record["overrides"])]
+        words = [*inversion_scan.on_ranks(record["ranks"]), "polybed", model, case, *words_of(record["overrides"])]
         lines.append(words + ["-o", found["models"][model]["directory"], "--force"])
     if scan and "scan" in scan:
-        lines.append(scan_command(scan))
+        lines.append(inversion_scan.commands(scan))
     words = ["polybed", "compare", case, *words_of(found["overrides"])]
     for model in records:
         words += [f"--{model}", found["models"][model]["directory"]]
@@ -182,7 +173,7 @@ def measure_row(name, measure):
 
 def measures(found):
     rows = [measure_row(name, measure) for name, measure in found["measures"].items()]
-    folders = [folder_of(found["models"][model]) for model in ("tfm", "dem")]
+    folders = [folder_of(found["models"][model]) for model in NAMES]
     return table(["", "two-fluid", "particles", "difference", "from"], rows) + source(
         f"time means from {found['window']['begin_s']:.4g} to {found['window']['end_s']:.4g} s, recoveries of what is fed then or else of all until its end, with the half-width "
         "of their 95 % interval; files of " + Html(" and of ").join(folders))
@@ -197,8 +188,7 @@ def scores(found):
         verdict = {True: "reached", False: Html('<span class="missed">missed</span>'), None: undecided}[score["reached"]]
         rows.append([score_words(name), with_error(score["value"], score["error"]), with_error(score["goal"]) if score["goal"] else "", verdict])
     order = found["scores"]["order"]
-    top = [f"{NAMES[model]}: {order[model]['species']}" + ("" if order[model]["certain"] else " (within the uncertainty)")
-           for model in ("tfm", "dem") if order[model]]
+    top = [f"{NAMES[model]}: {top_text(order[model])}" for model in NAMES if order[model]]
     verdict = {True: "the same", False: Html('<span class="missed">not the same</span>'), None: ""}[order["same"]]
     told = markup("<p>On top: {}; {}.</p>", "; ".join(top), verdict) + source("means of the heights of the centres in history.csv of both runs") \
         if top else ""
@@ -216,8 +206,7 @@ def models(found):
 
 
 def pictures(found, runs):
-    window, folders = found["window"], {model: run.directory for model, run in runs.items()}
-    both = Html(" and ").join(file_name(folders[model]) for model in ("tfm", "dem"))
+    window, both = found["window"], Html(" and ").join(file_name(run.directory) for run in runs.values())
     tops = [shown_top(run) for run in runs.values() if run.profiles and len(run.profiles["time_s"])]
     parts = []
     for time in (0.0, window["begin_s"], window["end_s"]) if tops else ():
@@ -234,7 +223,7 @@ def pictures(found, runs):
 
 
 def text_of(found, path):
-    runs = {model: read(found["models"][model]["directory"]) for model in ("tfm", "dem")}
+    runs = {model: read(found["models"][model]["directory"]) for model in NAMES}
     records = {model: run.record for model, run in runs.items()}
     scan_path = Path(found["inversion_file"]) if "inversion_file" in found else None
     scan = read_json(scan_path, "polybed inversion") if scan_path else None
@@ -244,7 +233,7 @@ def text_of(found, path):
                      "with the runs that are there, it does")
     again = listing(commands(found, records, scan)) + source("all numbers: " + file_name(path) + f"; program of commit {found['git_commit']}")
     body = [section("measures", "Both models", measures(found)), section("scores", "Scores", scores(found)),
-            section("inversion", "Inversion velocity", Html().join(scan_tables(scan)) + source(
+            section("inversion", "Inversion velocity", Html().join(inversion_scan.tables(scan)) + source(
                 file_name(scan_path) + f" (commit {scan['git_commit']})") if scan else ""),
             section("pictures", "Pictures", pictures(found, runs)), section("cost", "Cost", models(found)), warnings(lines),
             section("commands", "How to make it again", again)]

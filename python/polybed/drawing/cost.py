@@ -6,7 +6,7 @@ import matplotlib.pyplot as plt
 
 from polybed.cost.report import advice, definitions, runs_of, shares_of
 from polybed.cost.sweep import AXES, CLOCKS
-from polybed.drawing.style import COLOURS, GREY, NAMES, PALE, fitted, shortened
+from polybed.drawing.style import COLOURS, GREY, NAMES, PALE, colour, fitted, shortened
 from polybed.page import Html, file_name, listing, markup, page, picture, section, source, table, warnings
 from polybed.program import name_of
 from polybed.folder import title_of_case
@@ -83,7 +83,7 @@ def draw(sweep, _folder=None):
         band(axes, sweep["runs"], quantity["id"])
         for n, (name, runs) in enumerate(lines_of(sweep["runs"], quantity["id"]).items()):
             places = sorted(p for p in (point(run, quantity["id"]) for run in runs) if p)
-            axes.plot([p[0] for p in places], [p[2] for p in places], color=COLOURS[n % len(COLOURS)], lw=1,
+            axes.plot([p[0] for p in places], [p[2] for p in places], color=colour(n), lw=1,
                       marker=MARKS[n % len(MARKS)], markersize=3, label=AXES.get(name, name))
         draw_points(axes, sweep["runs"], quantity["id"])
         draw_front(axes, sweep, quantity["id"])

@@ -20,8 +20,7 @@ def draw_inversion(record, figure):
             of = voidage["by"][name]
             axes.plot(at, [of["minus"], voidage["value"], of["plus"]], "o-", ms=3, color=colour, label=name)
     axes.plot(1e3 * velocity["value"], voidage["value"], "k+", ms=9, label=record["law"])
-    axes.set_xlabel("inversion velocity, mm/s")
-    axes.set_ylabel("voidage")
+    axes.set(xlabel="inversion velocity, mm/s", ylabel="voidage")
     axes.legend()
 
 
@@ -37,8 +36,7 @@ def draw_runs(record, folder, figure):
     """Bed height and centre difference over time, with the range of the runs whose law is moved."""
     time, base = series_of(folder)
     moved = [series_of(folder / f"{name}-{sign}") for name in record["band"] for sign in ("minus", "plus")]
-    panels = [(name, label) for name, label in (("bed_height_m", "bed height, m"), ("centre_difference", "centre difference"))
-              if len(base[name])]
+    panels = [pair for pair in (("bed_height_m", "bed height, m"), ("centre_difference", "centre difference")) if len(base[pair[0]])]
     for n, (name, label) in enumerate(panels, 1):
         axes = figure.add_subplot(1, len(panels), n)
         all_runs = np.array([base[name], *(np.interp(time, at, values[name]) for at, values in moved)])
@@ -46,8 +44,7 @@ def draw_runs(record, folder, figure):
         axes.plot(time, base[name], color=COLOURS[0], lw=1, label=record["law"])
         if record.get(name, {}).get("low") is not None:
             axes.axhspan(record[name]["low"], record[name]["high"], xmin=0.75, color=GREY, alpha=0.25, lw=0)
-        axes.set_xlabel("time, s")
-        axes.set_ylabel(label)
+        axes.set(xlabel="time, s", ylabel=label)
     axes.legend()
 
 
@@ -65,8 +62,7 @@ def draw_fit(record, folder):
     for axes, (name, label), colour in zip(panels[0], kinds, COLOURS):
         axes.axhline(0, color=GREY, lw=0.6)
         axes.plot(table["eps"], 100 * table[name], "o", ms=2.5, color=colour, alpha=0.6)
-        axes.set_title(f"{label}: mean {record['errors']['all'][name]['mean']:.2f} %")
-        axes.set_xlabel("voidage")
+        axes.set(title=f"{label}: mean {record['errors']['all'][name]['mean']:.2f} %", xlabel="voidage")
     panels[0][0].set_ylabel("error of $n_j$, %")
     figure.tight_layout()
     return figure

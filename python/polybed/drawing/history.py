@@ -32,8 +32,7 @@ def key(axes):
 
 
 def time_axis(axes, time):
-    axes.set_xlim(time[0], time[-1] if time[-1] > time[0] else time[0] + 1)
-    axes.set_xlabel("time (s)")
+    axes.set(xlim=(time[0], time[-1] if time[-1] > time[0] else time[0] + 1), xlabel="time (s)")
 
 
 def draw_invariants(axes, run):
@@ -44,14 +43,10 @@ def draw_invariants(axes, run):
         share = max(entry["worst"] / entry["limit"], least)
         axes.barh(n, share - least, left=least, height=0.4, color=COLOURS[0] if share <= 1 else COLOURS[1])
         axes.plot([1, 1], [n - 0.28, n + 0.28], color="black", linewidth=1.2)
-        text = f"{entry['name']}: {entry['worst']:.1g} of {entry['limit']:.0e}"
-        axes.text(least, n - 0.3, text, fontsize=8, va="bottom", ha="left")
-    axes.set_xscale("log")
-    axes.set_xlim(least, max([most] + [3 * i["worst"] / i["limit"] for i in entries]))
-    axes.set_ylim(max(len(entries), 6) - 0.5, -0.8)
-    axes.set_yticks([])
+        axes.text(least, n - 0.3, f"{entry['name']}: {entry['worst']:.1g} of {entry['limit']:.0e}", fontsize=8, va="bottom", ha="left")
+    axes.set(xscale="log", xlim=(least, max([most] + [3 * i["worst"] / i["limit"] for i in entries])), yticks=[],
+             ylim=(max(len(entries), 6) - 0.5, -0.8), xlabel="worst value of each invariant / its limit")
     axes.spines["left"].set_visible(False)
-    axes.set_xlabel("worst value of each invariant / its limit")
 
 
 def draw(run, time=None):

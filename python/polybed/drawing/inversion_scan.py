@@ -4,8 +4,7 @@ import shlex
 from pathlib import Path
 
 from polybed.texts import fitting, text
-from polybed.page import Html, file_name, listing, page, section, source, table
-from polybed.page import picture as shown_picture
+from polybed.page import Html, file_name, listing, page, picture, section, source, table
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -43,8 +42,7 @@ def draw(found, _folder=None):
         axes.axvline(balance["velocity_m_s"] * factor, color=GREY, linestyle=":", linewidth=1,
                      label=f"force balance: {text(balance['velocity_m_s'], 'm/s')}")
     first, second = found["species"]
-    axes.set_xlabel(f"superficial velocity ({unit})")
-    axes.set_ylabel(f"centre of {second} less that of {first}, over the bed height")
+    axes.set(xlabel=f"superficial velocity ({unit})", ylabel=f"centre of {second} less that of {first}, over the bed height")
     axes.legend(fontsize=8)
     return figure
 
@@ -59,14 +57,10 @@ def on_ranks(ranks):
 
 def commands(scan):
     """The words that make a scan again, or find it finished: range and end are those that it had, given or by default."""
-    words = [*on_ranks(scan["ranks"]), "polybed", "inversion", scan["case"]]
-    words += [*words_of(scan["overrides"]), "--scan", scan["scan"]]
-    for option, value in (("--from", f"{scan['from_m_s']!r} m/s"), ("--to", f"{scan['to_m_s']!r} m/s"),
-                          ("--until", f"{scan['until_s']!r} s")):
-        words += [option, value]
-    if "stress_uncertainty" in scan["models"].get("tfm", {}):
-        words.append("--stress-uncertainty")
-    return words + ["-o", scan["directory"]]
+    moved = ["--stress-uncertainty"] if "stress_uncertainty" in scan["models"].get("tfm", {}) else []
+    return [*on_ranks(scan["ranks"]), "polybed", "inversion", scan["case"], *words_of(scan["overrides"]), "--scan", scan["scan"],
+            "--from", f"{scan['from_m_s']!r} m/s", "--to", f"{scan['to_m_s']!r} m/s", "--until", f"{scan['until_s']!r} s",
+            *moved, "-o", scan["directory"]]
 
 
 def velocity_row(model, of):
@@ -105,8 +99,8 @@ def tables(found):
 
 
 def text_of(found, path):
-    drawn = shown_picture(draw(found), "means over the last part of each run, with their 95 % intervals; " + file_name(path),
-                          "distance of the centres over the velocity")
+    drawn = picture(draw(found), "means over the last part of each run, with their 95 % intervals; " + file_name(path),
+                    "distance of the centres over the velocity")
     velocities, runs = tables(found)
     body = [section("found", "Inversion velocity", velocities), section("picture", "Runs", drawn + runs),
             section("commands", "How to make it again", listing(shlex.join(commands(found))) if "scan" in found else "")]

@@ -114,12 +114,9 @@ def frame(axes, run, title, top, first):
     """Axes that show the column up to a height, to scale, in the unit of the run."""
     factor, unit = length_unit(run)
     faces = faces_across(run) * factor
-    axes.set_aspect("equal")
-    axes.set_title(title)
+    axes.set(aspect="equal", title=title, xlabel=f"{'r' if faces[0] < 0 else 'x'} ({unit})", ylim=(0, top * factor))
     axes.set_xlim(faces[0], faces[-1])
     axes.set_xticks([faces[0], faces[-1]], [f"{faces[0]:g}", f"{faces[-1]:g}"])
-    axes.set_xlabel(f"{'r' if faces[0] < 0 else 'x'} ({unit})")
-    axes.set_ylim(0, top * factor)
     axes.spines[["top", "right"]].set_visible(True)
     for line in inner_walls(run):
         if len(line) > 2:

@@ -24,9 +24,7 @@ def draw_profiles(axes, run, time):
         return
     for line in profile_panel(run, "phi", nearest(profiles["time_s"], time)).lines:
         axes.plot(line.x, line.y * length_unit(run)[0], **line.looks | ({"linestyle": ":", "linewidth": 1} if line.number is None else {}))
-    axes.set_xlim(0, 1)
-    axes.set_title("lateral mean")
-    axes.set_xlabel("volume fraction (dotted: voidage)" if "voidage" in profiles else "volume fraction")
+    axes.set(xlim=(0, 1), title="lateral mean", xlabel="volume fraction (dotted: voidage)" if "voidage" in profiles else "volume fraction")
     axes.tick_params(labelleft=False)
 
 

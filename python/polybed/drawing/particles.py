@@ -7,7 +7,7 @@ from matplotlib.colors import Normalize
 from matplotlib.lines import Line2D
 
 from polybed.drawing.maps import BARS, GAP, HEAD, HEIGHT, LEFT, RIGHT, axes_at, draw_scale, frame, map_size
-from polybed.drawing.style import COLOURS, fitted, length_unit, title_of
+from polybed.drawing.style import colour, fitted, length_unit, title_of
 from polybed.texts import fitting
 
 MOST = 50_000  # circles in a picture; more take long and hide each other
@@ -66,7 +66,7 @@ def circles(axes, run, step, colours, most=MOST):
 
 
 def species_colours(run, step):
-    return np.array([COLOURS[n % len(COLOURS)] for n, classes in enumerate(run.kinds.values()) for _ in classes])[step.species]
+    return np.array([colour(n) for n, classes in enumerate(run.kinds.values()) for _ in classes])[step.species]
 
 
 def speed(step):
@@ -84,8 +84,7 @@ def fastest(steps):
 
 
 def name_species(axes, run):
-    dots = [Line2D([], [], linestyle="", marker="o", color=COLOURS[n % len(COLOURS)], label=name)
-            for n, name in enumerate(run.kinds)]
+    dots = [Line2D([], [], linestyle="", marker="o", color=colour(n), label=name) for n, name in enumerate(run.kinds)]
     columns = 1 if max(map(len, run.kinds)) > 10 else 3
     axes.legend(handles=dots, loc="upper center", bbox_to_anchor=(0.5, 1.5), ncol=columns, fontsize=8, handletextpad=0.2,
                 columnspacing=1, borderaxespad=0)

@@ -19,10 +19,8 @@ def value_at(run, column, time):
 
 def mark_levels(axes, run, time, factor, named):
     for column, name, line in levels(run.history):
-        level = value_at(run, column, time)
-        if level is None:
-            continue
-        axes.axhline(level * factor, color=GREY, linestyle=line, linewidth=1, zorder=0, label=name if named else None)
+        if (level := value_at(run, column, time)) is not None:
+            axes.axhline(level * factor, color=GREY, linestyle=line, linewidth=1, zorder=0, label=name if named else None)
 
 
 def draw_kind(axes, run, row, kind, factor):
@@ -63,14 +61,11 @@ def draw_in_time(axes, run, name, most, factor, time):
     half = (y[1] - y[0]) / 2 if len(y) > 1 else y[0]
     faces = np.append(y - half, y[-1] + half) * factor
     axes.set_facecolor(EMPTY)
-    mesh = axes.pcolormesh(
-        edges(profiles["time_s"]), faces, profiles[f"phi_{name}"].T, cmap="viridis", vmin=0, vmax=most, rasterized=True
-    )
+    mesh = axes.pcolormesh(edges(profiles["time_s"]), faces, profiles[f"phi_{name}"].T, cmap="viridis", vmin=0, vmax=most, rasterized=True)
     for column, _, line in levels(history):
         axes.plot(history["time_s"], history[column] * factor, color="white", linestyle=line, linewidth=1)
     axes.axvline(time, color="white", linewidth=0.6)
-    axes.set_title(f"{name}: solids fraction in time")
-    axes.set_xlabel("time (s)")
+    axes.set(title=f"{name}: solids fraction in time", xlabel="time (s)")
     return mesh
 
 
@@ -94,14 +89,14 @@ def draw(run, time):
     figure = plt.figure(figsize=(10, 7.4), constrained_layout=True)
     upper, lower = figure.subfigures(2, 1, height_ratios=[1.15, 1])
     grid = upper.add_gridspec(1, 4, width_ratios=[1, 1, 1, 0.42])
-    axes = [upper.add_subplot(grid[0])]
-    axes += [upper.add_subplot(grid[n], sharey=axes[0]) for n in (1, 2)]
+    first = upper.add_subplot(grid[0])
+    axes = [first, *(upper.add_subplot(grid[n], sharey=first) for n in (1, 2))]
     time = profiles["time_s"][row]
     for ax, kind in zip(axes, profile_kinds(run)):
         draw_kind(ax, run, row, kind, factor)
         mark_levels(ax, run, time, factor, named=ax is axes[0])
-    axes[0].set_ylabel(f"height y ({unit})")
-    axes[0].set_ylim(0, shown_top(run) * factor)
+    heights = {"ylabel": f"height y ({unit})", "ylim": (0, shown_top(run) * factor)}
+    axes[0].set(**heights)
     for ax in axes[1:]:
         ax.tick_params(labelleft=False)
     side = upper.add_subplot(grid[3])
@@ -112,8 +107,7 @@ def draw(run, time):
     below = lower.subplots(1, len(shown), sharey=True, squeeze=False)[0]
     for ax, name in zip(below, shown):
         mesh = draw_in_time(ax, run, name, most, factor, time)
-    below[0].set_ylabel(f"height y ({unit})")
-    below[0].set_ylim(0, shown_top(run) * factor)
+    below[0].set(**heights)
     lower.colorbar(mesh, ax=list(below), pad=0.01).set_label("solids fraction")
     figure.suptitle(fitted(title_of(run, time) + "   lateral means", figure, 10), fontsize=10)
     return figure

@@ -16,7 +16,7 @@ with needed(__name__ == "__main__"):
     import matplotlib.pyplot as plt
     import numpy as np
 
-    from polybed.drawing.style import COLOURS, PALE, STYLE
+    from polybed.drawing.style import PALE, STYLE, colour
     from polybed.ending import made
     from polybed.files import FormatError, contents_of
     from polybed.plot import save
@@ -40,11 +40,10 @@ def draw_ratios(table, plots):
         raise FormatError(f"{table.path}: of regime {table.attributes['regime']}, not of sheared particles")
     for plot, (name, title) in zip(plots, RATIOS):
         for n, (label, values, errors) in enumerate(lines_of(table, name)):
-            plot.errorbar(table["phi"], values, errors, color=COLOURS[n % len(COLOURS)], marker="o", markersize=3,
+            plot.errorbar(table["phi"], values, errors, color=colour(n), marker="o", markersize=3,
                           linewidth=1, capsize=2, label=label or None)
         plot.axhline(1, color=PALE, linewidth=0.8, zorder=0)
-        plot.set_title(f"{title} over {table.attributes['reference']}")
-        plot.set_xlabel("solids fraction")
+        plot.set(title=f"{title} over {table.attributes['reference']}", xlabel="solids fraction")
         plot.set_ylim(bottom=0)
     if plots[0].get_legend_handles_labels()[1]:
         plots[0].legend()

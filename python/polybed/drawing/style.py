@@ -39,9 +39,13 @@ FEW_SOLIDS = 0.01  # a volume fraction below which a place counts as empty
 TRACE = 1e-5  # below which nothing is suspended
 
 
+def colour(n):
+    return COLOURS[n % len(COLOURS)]
+
+
 def species_line(n):
     """Colour and line of the species number n."""
-    return {"color": COLOURS[n % len(COLOURS)], "linestyle": LINES[n // len(COLOURS) % len(LINES)]}
+    return {"color": colour(n), "linestyle": LINES[n // len(COLOURS) % len(LINES)]}
 
 
 def levels(history):

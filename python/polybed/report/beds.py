@@ -3,7 +3,7 @@
 import numpy as np
 
 from polybed.drawing.maps import outline, ports_of, stored_maps, walls_of
-from polybed.drawing.style import COLOURS, FEW_SOLIDS, around_axis, as_shown, faces_across, length_unit
+from polybed.drawing.style import FEW_SOLIDS, around_axis, as_shown, colour, faces_across, length_unit
 from polybed.texts import fitting
 from polybed.particles import step_shown
 from polybed.read import kinds_among
@@ -231,4 +231,4 @@ def particles_of(run):
                     "names": names, "size": [float(v) for v in size],
                     "outlines": [[plain_numbers(point * factor) for point in line] for line in outlines],
                     "ports": [[name, colour, [plain_numbers(point * factor) for point in line]] for name, colour, line in ports],
-                    "colours": [COLOURS[n % len(COLOURS)] for n in range(len(names))], "note": "; ".join(notes)}
+                    "colours": [colour(n) for n in range(len(names))], "note": "; ".join(notes)}
