@@ -55,19 +55,11 @@ class Quantity(np.lib.mixins.NDArrayOperatorsMixin):
 
 def unit_of_column(name: str) -> str:
     """Unit of a column of the history; "1" for what has none, as a number of contacts."""
-    for ending, unit in ENDINGS.items():
-        if name.endswith(ending):
-            return unit
-    return "1"
+    return next((unit for ending, unit in ENDINGS.items() if name.endswith(ending)), "1")
 
 
 def unit_of_field(name: str) -> str:
-    if name == "p":
-        return "Pa"
-    for beginning, unit in BEGINNINGS.items():
-        if name.startswith(beginning):
-            return unit
-    return "1"
+    return "Pa" if name == "p" else next((unit for beginning, unit in BEGINNINGS.items() if name.startswith(beginning)), "1")
 
 
 def unknown(where: object, name: str, known: Iterable[str]) -> UnknownNameError:

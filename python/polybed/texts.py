@@ -51,6 +51,13 @@ def text(value, unit, digits=3):
     return f"{value * factor:.{digits}g} {name}".strip()
 
 
+def percent(share, error=None, none="\u2013"):
+    """A share in per cent: "0.4 \u00b1 0.1 %". none: stands for no number"""
+    if share is None:
+        return none
+    return f"{100 * share:.2g}" + (f" \u00b1 {100 * error:.1g}" if error else "") + " %"
+
+
 def duration(seconds):
     """A length of time for people: "42 s", "3 min 20 s", "2 h 5 min"."""
     s = int(seconds + 0.5)

@@ -4,7 +4,6 @@ import itertools
 import json
 import time
 from concurrent.futures import as_completed
-from dataclasses import dataclass
 from typing import NamedTuple
 
 from polybed.texts import duration
@@ -35,29 +34,13 @@ class Point(NamedTuple):
     seed: int = 1
 
 
-@dataclass
 class Plan:
-    case: dict  # as the program answers
-    seeds: list  # of each point [phi][stokes][e][mu_p][x2]
+    """The boxes of a case. case: as the program answers"""
 
-    @classmethod
-    def of_case(cls, case):
-        plan = cls(case, [])
-        plan.seeds = [case["seeds"]] * len(plan.points())
-        return plan
-
-    @property
-    def regime(self):
-        return self.case["regime"]
-
-    @property
-    def axes(self):
-        return self.case["axes"]
-
-    @property
-    def pushed(self):
-        """Whether boxes are run for what the species exchange: beta_12 is measured in dry boxes alone."""
-        return self.case["binary"] and self.regime == "dry"
+    def __init__(self, case):
+        self.case, self.regime, self.axes = case, case["regime"], case["axes"]
+        self.pushed = case["binary"] and self.regime == "dry"  # also boxes for what the species exchange: beta_12 is measured in dry boxes alone
+        self.seeds = [case["seeds"]] * len(self.points())  # of each point [phi][stokes][e][mu_p][x2]
 
     def points(self):
         """A box of each point, without its seed."""

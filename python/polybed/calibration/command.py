@@ -16,7 +16,6 @@ from polybed.runner import Door, ranks
 from polybed.solids_table import read_table
 from polybed.study.output import remark, subfolder, taken
 
-
 # Axes of a table.
 WORDS = {"phi": "solids fraction", "stokes": "Stokes number of the shear", "e": "restitution", "mu_p": "friction of particles",
          "x2": "volume share of the second species"}
@@ -52,10 +51,6 @@ def keep(options, name, lines):
     put_text(options.output / name, lines, "surrogateescape")
 
 
-def say_object(found):
-    answer(json.dumps(found, ensure_ascii=False))
-
-
 def show_plan(options, plan, boxes):
     case, axes, at_once = plan.case, plan.axes, plan.case["ranks"] if options.on_ranks else options.jobs
     text = f"regime {plan.regime}: {case['reason']}\n"
@@ -71,8 +66,8 @@ def show_plan(options, plan, boxes):
     text += "".join(f"  {WORDS[name] + ':':37} {', '.join(f'{value:.4g}' for value in values)}\n" for name, values in axes.items() if any(values))
     say(options, f"{text}{len(boxes.left())} left to run, about {duration(expected)}, {at_once} at once")
     if options.plan and options.json:
-        say_object({"regime": plan.regime, "reason": case["reason"], "boxes": len(boxes.points), "left": len(boxes.left()),
-                    "expected_s": expected})
+        answer(json.dumps({"regime": plan.regime, "reason": case["reason"], "boxes": len(boxes.points), "left": len(boxes.left()),
+                           "expected_s": expected}, ensure_ascii=False))
 
 
 def check_table(options, door, plan):
@@ -85,8 +80,8 @@ def check_table(options, door, plan):
     points = points_between(table, plan.case["binary"])
     boxes = Boxes(door, options, points).run()
     ratios = door.ask("ratios", table=options.check, points=asked_of(points))
-    lines = deviation_lines(points, [deviation(box, read, table.attributes["lambda"]) for box, read in zip(boxes, ratios)])
-    keep(options, "check.txt", lines)
+    deviations = [deviation(box, read, table.attributes["lambda"]) for box, read in zip(boxes, ratios)]
+    keep(options, "check.txt", deviation_lines(points, deviations))
 
 
 def identify(table, plan):
@@ -99,14 +94,14 @@ def say_table(options, plan, count, tested):
     path = options.output / "table.h5"
     say(options, f"table: {path}")
     if options.json:
-        say_object({"table": str(path), "regime": plan.regime, "reason": plan.case["reason"], "boxes": count, **tested})
+        answer(json.dumps({"table": str(path), "regime": plan.regime, "reason": plan.case["reason"], "boxes": count, **tested},
+                          ensure_ascii=False))
 
 
 def finish_bed(options, plan, boxes):
     """Fluidised boxes: p_bed by both measures, and the table of that by slabs."""
     table = fit.bed_table(plan.seeds, boxes, plan.case["weight_m2_s2"])
-    lines = bed_lines(boxes) + "\n" + bed_rows(table)
-    keep(options, "boxes.txt", lines)
+    keep(options, "boxes.txt", bed_lines(boxes) + "\n" + bed_rows(table))
     fit.require_usable_bed(table)
     identify(table, plan)
     with in_place(options.output / "table.h5") as path:
@@ -135,8 +130,7 @@ def finish_sheared(options, door, plan, boxes, table):
         of_bed = read_table(options.bed)
         table.arrays |= {"phi_bed": of_bed["phi"], "p_bed": of_bed["p_bed"]}
         table.arrays |= {"p_bed_se": of_bed["p_bed_se"]} if "p_bed_se" in of_bed.names() else {}
-    lines = box_lines(boxes)
-    keep(options, "boxes.txt", lines)
+    keep(options, "boxes.txt", box_lines(boxes))
     tested = tested_by(table, plan)
     say(options, "\n".join(tested_lines(tested)))
     identify(table, plan)
@@ -154,7 +148,7 @@ def finish_sheared(options, door, plan, boxes, table):
 
 
 def calibrate(options, door):
-    plan = Plan.of_case(door.ask("case", case=options.case, settings=options.set))
+    plan = Plan(door.ask("case", case=options.case, settings=options.set))
     if options.bed:
         door.ask("bed", table=options.bed)  # ends for a file that is no table
     if options.on_ranks and options.jobs > 1:

@@ -26,6 +26,11 @@ class Scene(Case):
         before = children_seconds()
         self.needs = answer_of("check", path, *words_of(self.overrides))
         self.seconds = children_seconds() - before  # CPU time of the check, which balances the forces on the bed
+        self.cells = self.of("column.cells")  # numbers along x, y and, in three dimensions, z
+        self.is_tapered = self.of("column.profile") is not None  # the balance of forces changes with height
+        self.has_fluid = self.of("fluid.name") != "none"
+        self.only_for_particles = "dt_limits" not in self.needs  # the two-fluid model cannot run it
+        self.as_particles = "dem" in self.needs  # the particle model, too, can run it
 
     def of(self, path, default=None):
         """The value of a key, "tfm.rtol"; the default if the case has none."""
@@ -35,35 +40,6 @@ class Scene(Case):
     def law(self, role):
         """The law of a role in [effects]; "none" if it is off."""
         return self.of(f"effects.{role}", "none")
-
-    @property
-    def cells(self):
-        """Numbers of cells along x, y and, in three dimensions, z."""
-        return self.of("column.cells")
-
-    @property
-    def is_tapered(self):
-        """Whether the balance of forces changes with height."""
-        return self.of("column.profile") is not None
-
-    @property
-    def has_fluid(self):
-        return self.of("fluid.name") != "none"
-
-    @property
-    def only_for_particles(self):
-        """Whether the two-fluid model cannot run it."""
-        return "dt_limits" not in self.needs
-
-    @property
-    def as_particles(self):
-        """Whether the particle model, too, can run it."""
-        return "dem" in self.needs
-
-    def carried(self):
-        """Height, m, of the uniform bed that the forces balance on, measured on the slabs of the case as in a run; None where the fluid
-        carries a lone particle away."""
-        return self.needs["dt_limits"]["expanded"]["bed_height_m"]
 
 
 @dataclass

@@ -11,7 +11,7 @@ from polybed.cost import front
 from polybed.cost.axes import MAKERS, MODEL, NUMERICS, Scene
 from polybed.cost.judge import measure_distances, measure_errors, rank, settings_text
 from polybed.cost.reference import find_reference
-from polybed.cost.report import sweep_json, sweep_markdown, write_sweep
+from polybed.cost.report import sweep_json, sweep_markdown
 from polybed.cost.runner import RunOrder, Runner
 from polybed.cost.sweep import CANDIDATE, quantities_of_run
 from polybed.cost.sweeper import Sweeper, common_overrides
@@ -19,7 +19,7 @@ from polybed.files import contents_of, put_text, read_json, read_text
 from polybed.program import name_of
 from polybed.runner import call, words_of
 from polybed.study.cases import Case
-from polybed.study.output import draw, subfolder, taken
+from polybed.study.output import draw, json_text, subfolder, taken
 
 TIME_ALLOWED, ROUNDING = 0.25, 1e-9  # of the time and the error of a recommendation that is run again
 NUMBER = r" *\+?(\d+\.?\d*(?:[eE][-+]?\d+)?|\.\d+(?:[eE][-+]?\d+)?) *"
@@ -118,8 +118,10 @@ def sweep(given):
     with taken(folder):
         found = run_sweep(scene, given, Runner(scene, overrides, subfolder(folder, "runs"), given.resume))
         record = sweep_json(found, scene, overrides)
-        text = write_sweep(record, folder)
-        answer(text if given.json else f"{sweep_markdown(record)}\n{folder / 'cost.json'}")
+        text, words = json_text(record), sweep_markdown(record)
+        put_text(folder / "cost.json", text + "\n")
+        put_text(folder / "cost.md", words)
+        answer(text if given.json else f"{words}\n{folder / 'cost.json'}")
         if given.picture:
             draw(folder / "cost.json", "picture", given.quiet)
     return found.outcome == "done"

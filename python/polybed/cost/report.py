@@ -4,13 +4,11 @@ import os
 from math import isfinite
 
 from polybed.cost.judge import level_of, scale_of
-from polybed.cost.sweep import CANDIDATE, CLOCKS, REFERENCES, STATUS, in_words, part, percent
+from polybed.cost.sweep import CANDIDATE, CLOCKS, REFERENCES, STATUS, in_words, part
 from polybed.cost.runner import VERSION, weighed
-from polybed.texts import markdown_table, text
-from polybed.files import put_text
+from polybed.texts import markdown_table, percent, text
 from polybed.program import name_of
 from polybed.runner import commit_and_build
-from polybed.study.output import json_text
 
 ALWAYS = ("rtol", "grid", "scheme", "steps", "coupling")  # axes in each row, others where the level differs from the first row
 OUTCOMES = {"refused": "No recommendation", "failed": "The sweep failed"}
@@ -152,11 +150,3 @@ def sweep_markdown(found):
     for warning in found["warnings"]:
         lines += ["", f"warning: {warning}"]
     return "\n".join([*lines, "", f"outcome {found['outcome']}, commit {found['git_commit']}"]) + "\n"
-
-
-def write_sweep(found, folder):
-    """cost.json and cost.md; the text of the first."""
-    record = json_text(found)
-    put_text(folder / "cost.json", record + "\n")
-    put_text(folder / "cost.md", sweep_markdown(found))
-    return record

@@ -43,13 +43,6 @@ def part(row):
     return PARTS.get(row, row)
 
 
-def percent(share, error=None):
-    """"0.4 ± 0.1 %"; a dash without a number."""
-    if share is None:
-        return "\u2013"
-    return f"{100 * share:.2g}" + (f" \u00b1 {100 * error:.1g}" if error else "") + " %"
-
-
 class QuantityInfo(NamedTuple):
     id: str
     unit: str
@@ -62,7 +55,7 @@ class RunQuantities:
     values: dict = field(default_factory=dict)  # those that the run has, TimeMean
     directory: Path | None = None  # of the run, if it has stored profiles in the window
     too_short: str = ""  # a quantity with fewer than 30 autocorrelation times
-    centre: float | None = None  # of the volume of all solids, m
+    centre: float | None = None  # of the volume of all solids in the mean profile, as in a column of one width, m
 
 
 def quantities_of(species):
@@ -71,12 +64,6 @@ def quantities_of(species):
             *(several if len(species) > 1 else []), ("profile", "1", SHARE)]
     words = HELP | {f"centre_{name}": HELP["centre_<name>"] for name in species} | {"pressure_drop": "over the buoyant weight"}
     return [QuantityInfo(name, unit, words[name], scale) for name, unit, scale in rows]
-
-
-def centre_of(measured):
-    """Height, m, of the centre of volume of all solids in a mean profile, as in a column of one width; None for an empty one."""
-    solids = sum(np.nan_to_num(np.array(of["mean"], float)) for of in measured.fraction.values())
-    return float(np.average(measured.height, weights=solids)) if np.sum(solids) > 0 else None
 
 
 def quantities_of_run(run, begin, slabs):
@@ -98,7 +85,8 @@ def quantities_of_run(run, begin, slabs):
             found.too_short = name
         found.values[name] = mean
     found.directory = run.directory if measured.profiles else None
-    found.centre = centre_of(measured)
+    solids = sum(np.nan_to_num(np.array(of["mean"], float)) for of in measured.fraction.values())
+    found.centre = float(np.average(measured.height, weights=solids)) if np.sum(solids) > 0 else None
     if len(species) > 1 and "interface_m" in measured.of_profile:
         found.values["interface"] = measured.of_profile["interface_m"]
     return found

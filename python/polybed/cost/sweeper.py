@@ -72,13 +72,9 @@ class Sweeper:
         overrides = [override for level in levels for override in level.overrides]
         return RunOrder(model, (*overrides, *more))
 
-    def on_line(self, name, level):
-        """Settings that differ from the centre on one axis."""
-        return self.centre | {name: level}
-
     def row_on_line(self, name, level):
         """The candidate at a level of an axis, the others as in the centre; None if it was not run to its end."""
-        row = self.sweep.find(self.order_of(self.on_line(name, level)), CANDIDATE)
+        row = self.sweep.find(self.order_of(self.centre | {name: level}), CANDIDATE)
         return row if row and row.done else None
 
     def grid_ratio(self, grid, level):
@@ -110,8 +106,8 @@ class Sweeper:
         return wall
 
     def balance_forces(self, row):
-        """Height by the balance of forces on a uniform bed: no run."""
-        height = self.scene.carried()
+        """Height by the balance of forces on a uniform bed, measured on the slabs of the case as in a run: no run."""
+        height = self.scene.needs["dt_limits"]["expanded"]["bed_height_m"]
         row.outcome = RunOutcome("refused", "the fluid carries a lone particle away") if height is None else RunOutcome("done")
         row.outcome.cpu, row.outcome.simulated = self.scene.seconds, self.scene.of("run.until")
         row.measured.values["pressure_drop"] = TimeMean(1.0)
@@ -172,7 +168,7 @@ class Sweeper:
         """Each axis of a kind by itself."""
         for axis in self.sweep.axes:
             for level in range(len(axis.levels)) if axis.kind == kind else ():
-                settings = self.on_line(axis.name, level)
+                settings = self.centre | {axis.name: level}
                 other = kind == MODEL and level != self.centre[axis.name]  # no better or worse numerics
                 self.run(Row(self.order_of(settings), kind if other else CANDIDATE, settings), 0.5 if kind == MODEL else 1.0)
 

@@ -51,8 +51,9 @@ def band_of_draws(problem, drawn):
     return float(np.nanmax(np.nanstd(logs[:, problem.known], axis=0)))
 
 
-def law_file(form, constants, **members):
-    return {"filetype": "polybed drag law", "version": 1, "form": form, "constants": constants} | members
+def write_law(path, form, constants, **members):
+    text = {"filetype": "polybed drag law", "version": 1, "form": form, "constants": constants} | members
+    path.write_text(json.dumps(text, indent=1, allow_nan=False) + "\n", encoding="utf-8")
 
 
 def range_of(points):
@@ -65,10 +66,8 @@ def partition_bands(points, law):
     """The band of the law with each partition, on points with more than one size; empty without any."""
     mixtures = [p for p in points if len(p.net) > 1]
     one_size = errors.band_of(points, errors.net_by_program(points, law))["one_size"]
-    bands = {}
-    for partition in laws_of("partition") if mixtures else ():
-        bands[partition] = errors.band_of(mixtures, errors.net_by_program(mixtures, law, partition)) | {"one_size": one_size}
-    return bands
+    return {partition: errors.band_of(mixtures, errors.net_by_program(mixtures, law, partition)) | {"one_size": one_size}
+            for partition in (laws_of("partition") if mixtures else ())}
 
 
 def by_source(points, arrays):
@@ -95,10 +94,6 @@ def poor_fit(problem, found, own, mean):
     return lines
 
 
-def write_law(path, text):
-    path.write_text(json.dumps(text, indent=1, allow_nan=False) + "\n", encoding="utf-8")
-
-
 def fit(given, folder):
     points = read_points(given.rows)
     problem = Problem(given.form, answer_of("list")["drag_forms"][given.form], points)
@@ -109,8 +104,9 @@ def fit(given, folder):
     found = problem.fit()
     constants = problem.constants(found)
     drawn = problem.bootstrap(found, given.bootstrap, given.seed)
-    write_law(folder / "law.json", law_file(given.form, constants))
-    nets = errors.net_by_program(points, f"file:{folder / 'law.json'}")
+    law, by_law = folder / "law.json", f"file:{folder / 'law.json'}"
+    write_law(law, given.form, constants)
+    nets = errors.net_by_program(points, by_law)
     by_program, by_published = errors.relative(points, nets), errors.relative(points, errors.net_by_program(points, given.form))
     own = problem.relative(constants)
     off = np.nanmax(np.abs((1 + own) / (1 + by_program) - 1))
@@ -125,12 +121,11 @@ def fit(given, folder):
     about = {"rows": [str(path) for path in given.rows], "points": len(points), "forces": int(problem.known.sum()),
              "form": given.form, "free": problem.free, "bootstrap": given.bootstrap, "seed": given.seed,
              "created": time.strftime("%Y-%m-%dT%H:%M:%SZ", time.gmtime())}
-    record = {"filetype": "polybed drag fit", "version": 1, **about, "law": str(folder / "law.json"), "constants": constants,
+    record = {"filetype": "polybed drag fit", "version": 1, **about, "law": str(law), "constants": constants,
               "published": problem.published, "interval": interval_of(problem, drawn), "errors": summaries, "band": band,
               "from_constants": band_of_draws(problem, drawn), "guard_answers_by": float(off),
               "constraints": {"greatest_violation": broken, "sum_rule": sum_rule(points, nets)}}
-    bands = partition_bands(points, f"file:{folder / 'law.json'}")
-    write_law(folder / "law.json", law_file(given.form, constants, range=range_of(points), band=band, partition_bands=bands, fit=about))
+    write_law(law, given.form, constants, range=range_of(points), band=band, partition_bands=partition_bands(points, by_law), fit=about)
     (folder / "accuracy.md").write_text(page(record), encoding="utf-8")
     write_errors(folder / "errors.csv", points, arrays)
     return record
@@ -142,10 +137,9 @@ def sum_rule(points, nets):
     for p, net in zip(points, nets):
         if len(net) < 2:
             continue
-        y = p.diameter * (p.share / p.diameter).sum()
-        mean = (p.share * net / y**2).sum()  # = f_mean (1 + phi/eps) where the rule is kept: n_j = f_j + phi y^2 f_mean/eps
-        pure = net - (1 - p.voidage) * y**2 * mean
-        worst = max(worst or 0.0, abs((p.share * pure / y**2).sum() / (p.voidage * mean) - 1))
+        mean = (p.share * net / p.y**2).sum()  # = f_mean (1 + phi/eps) where the rule is kept: n_j = f_j + phi y^2 f_mean/eps
+        pure = net - (1 - p.voidage) * p.y**2 * mean
+        worst = max(worst or 0.0, abs((p.share * pure / p.y**2).sum() / (p.voidage * mean) - 1))
     return worst
 
 

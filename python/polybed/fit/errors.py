@@ -5,7 +5,7 @@ import csv
 import numpy as np
 
 from polybed.runner import asked
-from polybed.texts import markdown_table
+from polybed.texts import markdown_table, percent
 
 FINE = 0.5  # y below which a size is fine: ratios with it are less certain
 
@@ -54,11 +54,10 @@ def band_of(points, nets):
         if not np.isfinite(error).all():
             continue
         common.append(error.mean())
-        y = p.diameter * (p.share / p.diameter).sum()
-        order = np.argsort(y)
-        if len(y) <= 4:
+        order = np.argsort(p.y)
+        if len(order) <= 4:
             for a, b in zip(order[:-1], order[1:]):
-                (fine if y[a] < FINE else ratio).append(error[a] - error[b])
+                (fine if p.y[a] < FINE else ratio).append(error[a] - error[b])
     return {"one_size": rms(one), "common": rms(common), "ratio": rms(ratio), "ratio_fine": rms(fine)}
 
 
@@ -88,11 +87,7 @@ def constant_table(record):
 def band_table(record):
     names = (("one_size", "n of one size"), ("common", "n, the factor that all sizes of a packing have in common"),
              ("ratio", "ratio of two sizes"), ("ratio_fine", "ratio of two sizes, the finer below half the Sauter diameter"))
-    return markdown_table(["quantity", "band (rms)"], [[text, percent(record["band"][name])] for name, text in names])
-
-
-def percent(value):
-    return "-" if value is None else f"{100 * value:.2g} %"
+    return markdown_table(["quantity", "band (rms)"], [[text, percent(record["band"][name], none="-")] for name, text in names])
 
 
 def sum_rule_line(worst):
@@ -113,7 +108,7 @@ def page(record):
         "## Constants", "",
         f"Intervals by {record['bootstrap']} fits to rows drawn anew from each file. Constants that these rows do not determine are kept.",
         "", constant_table(record), "",
-        f"From the constants alone the force on a row is uncertain by at most {percent(record['from_constants'])} (one standard deviation).",
+        f"From the constants alone the force on a row is uncertain by at most {percent(record['from_constants'], none='-')} (one standard deviation).",
         "", "## Constraints", "",
         "- f = 1 at voidage 1 and Re 0: an identity of the form.",
         "- f at least 1, never falling with Re or with the solids, voidage 0.35 to 1, Re 0 to 1050: greatest departure "
@@ -130,8 +125,7 @@ def write_errors(path, points, arrays):
         rows.writerow(["row", "eps", "Re", "size", "y", "n", *(name for name in arrays if arrays[name] is not None)])
         at = 0
         for p in points:
-            y = p.diameter * (p.share / p.diameter).sum()
             for j in range(len(p.net)):
                 values = [f"{values[at]:.6g}" if np.isfinite(values[at]) else "" for values in arrays.values() if values is not None]
-                rows.writerow([p.where, p.voidage, p.reynolds, j + 1, f"{y[j]:.6g}", p.net[j], *values])
+                rows.writerow([p.where, p.voidage, p.reynolds, j + 1, f"{p.y[j]:.6g}", p.net[j], *values])
                 at += 1

@@ -24,11 +24,9 @@ class Sizes:
     def of(points):
         columns = {name: [] for name in ("group", "voidage", "reynolds", "share", "y", "y_mean", "m2")}
         for n, p in enumerate(points):
-            y = p.diameter * (p.share / p.diameter).sum()
-            count = len(y)
-            for name, value in (("group", n), ("voidage", p.voidage), ("reynolds", p.reynolds), ("share", p.share), ("y", y),
-                                ("y_mean", (p.share * y).sum()), ("m2", (p.share / y**2).sum())):
-                columns[name].append(np.broadcast_to(value, count))
+            for name, value in (("group", n), ("voidage", p.voidage), ("reynolds", p.reynolds), ("share", p.share), ("y", p.y),
+                                ("y_mean", (p.share * p.y).sum()), ("m2", (p.share / p.y**2).sum())):
+                columns[name].append(np.broadcast_to(value, len(p.y)))
         return Sizes(**{name: np.concatenate(values) for name, values in columns.items()})
 
     @staticmethod

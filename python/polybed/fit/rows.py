@@ -33,6 +33,11 @@ class Point:
     net: np.ndarray
     error: np.ndarray  # standard errors of net; NaN where they are not known
 
+    @property
+    def y(self):
+        """Diameters over the Sauter diameter."""
+        return self.diameter * (self.share / self.diameter).sum()
+
     def key(self):
         """Equal for repeated points."""
         return (self.voidage, self.reynolds, *self.share, *self.diameter / self.diameter[0], *self.net)

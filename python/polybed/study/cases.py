@@ -20,21 +20,10 @@ class Case:
         self.git_commit = found["git_commit"]  # of the program
         self.refused = found["refused"]  # by each model: why it cannot run the case
         self.keys = tomllib.loads(self.text)
-
-    @property
-    def velocity(self):
-        """Superficial velocity at the end, m/s; None in a closed column."""
-        return velocity_of(self.keys)
-
-    @property
-    def species(self):
-        return [species["name"] for species in self.keys["species"]]
-
-    @property
-    def table(self):
-        """Path of its table of the solids stress, a text; None without one."""
-        law = self.keys["effects"].get("solids_stress", "")
-        return law.removeprefix("table:") if law.startswith("table:") else None
+        self.velocity = velocity_of(self.keys)  # superficial, at the end, m/s; None in a closed column
+        self.species = [species["name"] for species in self.keys["species"]]
+        law = self.keys.get("effects", {}).get("solids_stress", "")
+        self.table = law.removeprefix("table:") if law.startswith("table:") else None  # path of its table of the solids stress, a text
 
 
 def hash_of(content):

@@ -42,7 +42,8 @@ class RunsOfModel:
         case = Case(self.request["case"], [*self.overrides, *self.start_of(velocity, source)], self.request["until"])
         digest = hash_of((case.text + self.table).encode())
         directory = os.path.join(self.request["directory"], self.name, f"{1e3 * velocity:.3f}mm_s-{digest[:DIGITS]}")
-        reused = finished(directory)
+        record = Path(directory) / "run.json"
+        reused = record.exists() and read_record(record)["state"] == "done"  # the name of the folder says of which case
         if not reused:
             again = "--resume" if has_checkpoint(directory) else "--force"  # replaces what a killed run has left without a checkpoint
             run(self.model, case.path, *words_of(case.overrides), "-o", directory, again, "--quiet", "--no-picture",
@@ -76,12 +77,6 @@ def say(line):
     """A line in between: nobody has to read it."""
     with suppress(StudyError):
         answer(line)
-
-
-def finished(directory):
-    """Whether a folder contains a finished run; its name says of which case."""
-    path = Path(directory) / "run.json"
-    return path.exists() and read_record(path)["state"] == "done"
 
 
 def measure(directory):

@@ -14,7 +14,6 @@ from polybed.study.measured import means_of
 from polybed.study.output import remark, write_record
 from polybed.runner import asked, flags, has_checkpoint, run, words_of
 
-
 MOVED = ("p_ratio", "mu_ratio", "p_bed")  # pressures and viscosities of a table
 
 

@@ -35,7 +35,7 @@ TWO = {"axes": DRY["axes"] | {"x2": [0.5]}, "binary": True}
 
 
 def plan_of(**changed):
-    return Plan.of_case(DRY | changed)
+    return Plan(DRY | changed)
 
 
 def box_of(point, **measured):
