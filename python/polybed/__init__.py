@@ -16,7 +16,7 @@ importlib.import_module("polybed.fit")
 
 with needed(sys.argv[:1] == ["-m"]):  # what Python calls a program that it still looks for
     from polybed.checks import Check
-    from polybed.errors import show_plainly
+    from polybed.errors import show
     from polybed.files import FormatError, ReplacedError
     from polybed.particles import Particles
     from polybed.program import ProgramError, calibrate, case, check, compare, inversion, run, sweep
@@ -25,7 +25,8 @@ with needed(sys.argv[:1] == ["-m"]):  # what Python calls a program that it stil
     from polybed.solids_table import SolidsTable, read_table
     from polybed.studies import cost, fit, measure, table
 
-show_plainly()
+if sys.excepthook is sys.__excepthook__:  # nobody else has chosen how errors are shown
+    sys.excepthook = show
 
 
 def __getattr__(name: str) -> object:

@@ -42,11 +42,6 @@ class Stored(BackendArray):
         return whole[(slice(None), *key[1:])]
 
 
-def places(run: Run) -> dict[str, Any]:
-    """Centres of the cells along each axis, m."""
-    return {axis: (axis, (faces[1:] + faces[:-1]) / 2, {"units": "m"}) for axis, faces in run.faces.items()}
-
-
 def fields(run: Run) -> xr.Dataset:
     """Fields over time: dimensions time, (z,) y, x, and component for velocities; coordinates in s and m, the centres of the cells;
     each variable has `attrs["units"]`. A variable is read when its values are."""
@@ -56,8 +51,8 @@ def fields(run: Run) -> xr.Dataset:
     for name in run.fields:
         dimensions = (*grid, "component") if name.startswith("u_") else grid
         found[name] = xr.Variable(dimensions, indexing.LazilyIndexedArray(Stored(run, name)), {"units": unit_of_field(name)})
-    centres = places(run)
-    coordinates = {"time": ("time", run.time, {"units": "s"})} | {axis: centres[axis] for axis in axes}
+    coordinates: dict[str, Any] = {"time": ("time", run.time, {"units": "s"})}
+    coordinates |= {axis: (axis, (run.faces[axis][1:] + run.faces[axis][:-1]) / 2, {"units": "m"}) for axis in axes}
     if any(name.startswith("u_") for name in run.fields):
         coordinates["component"] = ("component", list(axes), {})
     return xr.Dataset(found, coordinates)

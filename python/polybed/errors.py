@@ -85,9 +85,3 @@ def show(kind: type[BaseException], error: BaseException, trace: TracebackType |
         print("polybed: stopped by the user; resume=True continues", file=sys.stderr)
     else:
         sys.__excepthook__(kind, error, trace)
-
-
-def show_plainly() -> None:
-    """Has this interpreter show errors by `show`, unless somebody else has chosen how."""
-    if sys.excepthook is sys.__excepthook__:
-        sys.excepthook = show

@@ -240,26 +240,20 @@ def run_within(seconds: float, words: Iterable[object], output: Path) -> Exit:
     return Exit(code if code >= 0 else 128 - code, late.is_set(), time.monotonic() - begin)
 
 
-def wait_for(child: Child) -> int:
-    """Exit code of a run. A user who stops the study stops the run, which writes a checkpoint; one who insists ends it at once."""
-    stopped = False
-    while True:
-        try:
-            code = child.wait()
-            return STOPPED if stopped else code
-        except KeyboardInterrupt:
-            stopped = True
-            child.terminate()
-
-
 def run(*words: object, answers: bool = False) -> None:
     """Runs the program, on as many ranks as this process was started with, and waits for its end. It speaks on standard error; its answer
-    is that of the study if it `answers`, and else goes there too. Raises StudyError with the run's code; the text is empty if the run has
-    said what is wrong."""
+    is that of the study if it `answers`, and else goes there too. A user who stops the study stops the run, which writes a checkpoint; one
+    who insists ends it at once. Raises StudyError with the run's code; the text is empty if the run has said what is wrong."""
     signal.signal(signal.SIGTERM, signal.default_int_handler)
-    count = ranks()
+    count, interrupted = ranks(), False
     child = start(words, count, True, stdout=None if answers else sys.stderr)
-    code = wait_for(child)
+    while child.returncode is None:
+        try:
+            child.wait()
+        except KeyboardInterrupt:
+            interrupted = True
+            child.terminate()
+    code = STOPPED if interrupted else child.returncode
     if code < 0:
         raise StudyError(MPI if count > 1 else NUMBERS, f"{' '.join(line_of(words, count))}: ended by signal {-code}")
     if code != 0:

@@ -20,29 +20,19 @@ def markdown_table(head, rows):
 
 PREFIXES = ((1e9, "G"), (1e6, "M"), (1e3, "k"), (1.0, ""), (1e-3, "m"), (1e-6, "\u00b5"), (1e-9, "n"))
 WHOLE = {"1", "", "kg/m3"}  # units that stand without a prefix
-SQUARED = {"m2/s2": (2, "{0}m\u00b2/s\u00b2")}
-GRAMS = {"kg": "g", "kg/s": "g/s"}
+SHOWN = {"1": "", "m2/s2": "m\u00b2/s\u00b2"}
+GRAMS = {"kg": "g", "kg/s": "g/s"}  # the prefixes stand before these
 
 
 def fitting(unit, greatest):
     """(factor, unit) in which the greatest of numbers reads as 1 to 1000. All 0, or without a unit, they keep it."""
+    name = SHOWN.get(unit, unit)
     if unit in WHOLE or not 0 < greatest < float("inf"):
-        return 1.0, {"1": "", "m2/s2": "m\u00b2/s\u00b2"}.get(unit, unit)
-    power, name = SQUARED.get(unit, (1, "{0}" + unit))
-    if unit in GRAMS:
-        greatest, name = greatest * 1e3, "{0}" + GRAMS[unit]
-        factor, prefix = fitting_prefix(greatest, 1)
-        return (1.0, unit) if prefix == "k" else (1e3 * factor, name.format(prefix))
-    factor, prefix = fitting_prefix(greatest, power)
-    return factor, name.format(prefix)
-
-
-def fitting_prefix(greatest, power):
-    """The greatest prefix of which there is at least one, else the smallest."""
-    for size, prefix in PREFIXES:
-        if greatest * (1 + 1e-9) >= size**power:
-            return size**-power, prefix
-    return PREFIXES[-1][0] ** -power, PREFIXES[-1][1]
+        return 1.0, name
+    power, per = 2 if unit == "m2/s2" else 1, 1e3 if unit in GRAMS else 1.0
+    # The greatest prefix of which there is at least one, else the smallest.
+    size, prefix = next((each for each in PREFIXES if per * greatest * (1 + 1e-9) >= each[0]**power), PREFIXES[-1])
+    return (1.0, unit) if unit in GRAMS and prefix == "k" else (per * size**-power, prefix + GRAMS.get(unit, name))
 
 
 def text(value, unit, digits=3):

@@ -10,10 +10,8 @@ from polybed.calibration.fit import relative_errors, rows_of_bed, shear_number
 from polybed.solids_table import AXES
 from polybed.texts import right_table
 
-# Column of a box: (heading, its number or text)
-PLACE = (("phi", lambda box: f"{box['solids_fraction']:g}"), ("St", lambda box: f"{box['stokes']:g}"),
-         ("e", lambda box: f"{box['restitution']:g}"), ("mu_p", lambda box: f"{box['friction']:g}"),
-         ("x2", lambda box: f"{box['share']:g}"), ("seed", lambda box: f"{box['seed']}"))
+# Columns of the place of a box in the table, each with the entry that it shows.
+PLACE = {"phi": "solids_fraction", "St": "stokes", "e": "restitution", "mu_p": "friction", "x2": "share", "seed": "seed"}
 MEANING = """phi: solids fraction; St: Stokes number of the shear; e, mu_p: restitution and friction of particles
 x2: share of the second species; theta: granular temperature; g, d: shear rate and diameter
 p, mu: pressure and viscosity of the solids over density, g and d; ref: by kinetic theory
@@ -51,6 +49,7 @@ def measured(mean, per=1.0):
     return f"{mean[0] / per:.4g}±{mean[1] / per:.1g}"
 
 
+# Columns of what was measured: (heading, text of a box)
 SHEARED = (("theta/(g d)^2", lambda box: measured(box["theta_m2_s2"], math.pow(box["shear_rate_1_s"] * box["diameter_m"], 2))),
            ("p", lambda box: measured(box["pressure_Pa"], unit_of(box) * box["shear_rate_1_s"])),
            ("mu", lambda box: measured(box["viscosity_Pa_s"], unit_of(box))),
@@ -67,8 +66,9 @@ def unit_of(box):
 
 def table_lines(boxes, quantities):
     """A line for each box, at most 100 columns wide, below the entries that all of them share."""
-    texts = {name: [text(box) for box in boxes] for name, text in PLACE + quantities}
-    same = [name for name, _ in PLACE[1:-1] if len(set(texts[name])) == 1]
+    texts = {name: [f"{box[entry]:g}" for box in boxes] for name, entry in PLACE.items()}
+    texts |= {name: [text(box) for box in boxes] for name, text in quantities}
+    same = [name for name in PLACE if name not in ("phi", "seed") and len(set(texts[name])) == 1]
     head = [name for name in texts if name not in same]
     shared = f"in all boxes {', '.join(f'{name} {texts[name][0]}' for name in same)}\n" if same else ""
     return shared + right_table(head, zip(*map(texts.get, head)))

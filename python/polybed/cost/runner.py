@@ -81,20 +81,16 @@ class RunOutcome:
         return self.cpu / self.simulated if self.simulated > 0 else 0.0
 
 
-def remove_matching(folder, pattern):
-    for path in folder.iterdir():
-        if pattern.fullmatch(path.name):
-            path.unlink()
-
-
 def remove_not_read(folder):
     """Removes fields, particles and checkpoints from the folder of a run; what polybed has not written stays."""
-    remove_matching(folder, NOT_READ)
-    for steps in (folder / "fields", folder / "particles"):
-        if steps.is_dir() and not steps.is_symlink():
-            remove_matching(steps, STEP)
-            with suppress(OSError):  # there is more in it
-                steps.rmdir()
+    steps = [each for each in (folder / "fields", folder / "particles") if each.is_dir() and not each.is_symlink()]
+    for place, pattern in ((folder, NOT_READ), *((each, STEP) for each in steps)):
+        for path in place.iterdir():
+            if pattern.fullmatch(path.name):
+                path.unlink()
+    for each in steps:
+        with suppress(OSError):  # there is more in it
+            each.rmdir()
 
 
 class Runner:

@@ -5,6 +5,7 @@ import numpy as np
 
 from polybed.drawing.style import COLOURS, GREY, PALE
 from polybed.files import rows_of
+from polybed.fit.errors import COLUMNS
 from polybed.read import read
 from polybed.study.measured import centre_column, species_of
 
@@ -56,8 +57,7 @@ def columns(path):
 def draw_fit(record, folder):
     """Errors of a fitted law against voidage, and the same with rows left out."""
     table = columns(folder / "errors.csv")
-    kinds = [(name, label) for name, label in (("published", "published constants"), ("fitted", "fitted"),
-                                               ("voidage_left_out", "voidages left out")) if name in table]
+    kinds = [(name, label) for name, label in COLUMNS if name in table and name != "row_left_out"]
     figure, panels = plt.subplots(1, len(kinds), figsize=(3.4 * len(kinds), 3), sharey=True, squeeze=False)
     for axes, (name, label), colour in zip(panels[0], kinds, COLOURS):
         axes.axhline(0, color=GREY, lw=0.6)

@@ -45,12 +45,10 @@ def limits(run):
     path = run.directory / "steps.csv"
     if path.exists():
         seconds, steps = limits_of_steps(path)
-        total = sum(steps.values())
-        if total:
-            rows = [[why, count, f"{100 * count / total:.3g} %", text(seconds[why] / count, "s")]
-                    for why, count in steps.most_common(MOST_LIMITS)]
-            left = total - sum(count for _, count in steps.most_common(MOST_LIMITS))
-            rows += [["others", f"{left}", f"{100 * left / total:.3g} %", ""]] if left else []
+        if total := sum(steps.values()):
+            first, others = steps.most_common(MOST_LIMITS), sum(count for _, count in steps.most_common()[MOST_LIMITS:])
+            rows = [[why, count, f"{100 * count / total:.3g} %", text(seconds[why] / count, "s")] for why, count in first]
+            rows += [["others", others, f"{100 * others / total:.3g} %", ""]] if others else []
             return table(["limited by", "steps", "share", "mean step"], rows) + source(f"steps.csv, {total} steps")
     step = run.record.get("step", {})
     if not step.get("limits"):
@@ -76,11 +74,9 @@ def work(record):
 
 
 def invariants(record):
-    rows = []
-    for one in record.get("invariants", []):
-        held = one.get("held", one["worst"] <= one["limit"])
-        rows.append([one["name"], f"{one['worst']:.2g}", f"{one['limit']:.2g}",
-                     Html('<span class="held">held</span>' if held else '<span class="bad">exceeded</span>')])
+    verdicts = {True: Html('<span class="held">held</span>'), False: Html('<span class="bad">exceeded</span>')}
+    rows = [[one["name"], f"{one['worst']:.2g}", f"{one['limit']:.2g}", verdicts[bool(one.get("held", one["worst"] <= one["limit"]))]]
+            for one in record.get("invariants", [])]
     return table(["", "worst value", "limit", ""], rows) if rows else ""
 
 
@@ -116,11 +112,9 @@ def the_case(record):
 
 def cite(record, case):
     laws = ", ".join(f"{name} {law}" for name, law in case.get("effects", {}).items())
-    lines = [f"polybed {record.get('program', '')}, commit {record.get('git_commit', '')}, {MODELS.get(record.get('model'), '')}, "
-             f"case {record.get('case_hash', '')}"]
-    if laws:
-        lines.append(f"with the sources of its laws ({laws}), which docs/theory/closures.md lists")
-    return listing("\n".join(lines))
+    sources = f"\nwith the sources of its laws ({laws}), which docs/theory/closures.md lists" if laws else ""
+    return listing(f"polybed {record.get('program', '')}, commit {record.get('git_commit', '')}, {MODELS.get(record.get('model'), '')}, "
+                   f"case {record.get('case_hash', '')}{sources}")
 
 
 def commands(run, record):
@@ -145,11 +139,8 @@ def recorded(lines):
 
 
 def species_rows(case):
-    rows = []
-    for species in case.get("species", []):
-        if {"name", "diameter", "density"} <= species.keys():
-            rows.append([species["name"], f"{text(species['diameter'], 'm')}, {species['density']:.4g} kg/m\u00b3"])
-    return rows
+    return [[species["name"], f"{text(species['diameter'], 'm')}, {species['density']:.4g} kg/m\u00b3"]
+            for species in case.get("species", []) if {"name", "diameter", "density"} <= species.keys()]
 
 
 def time_row(record):

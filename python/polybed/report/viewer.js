@@ -48,6 +48,13 @@
     return to;
   }
 
+  /** A figure with its title and a canvas; returns both, the canvas as its context. */
+  function framed(into, title, width, height) {
+    const figure = make("div", into, "", "figure");
+    make("div", figure, title);
+    return [figure, canvas(figure, width, height)];
+  }
+
   const shown = value => String(Number(value.toPrecision(3)));
 
   function ticks(low, high, most) {
@@ -109,9 +116,7 @@
   /** Adds the panels of the history; returns what moves their marks to a time. */
   function showHistory(into, panels, end) {
     const drawn = panels.map(panel => {
-      const figure = make("div", into, "", "figure");
-      make("div", figure, panel.title);
-      const width = 490, height = 190, to = canvas(figure, width, height);
+      const width = 490, height = 190, [figure, to] = framed(into, panel.title, width, height);
       drawKey(figure, panel.lines);
       if (panel.note) make("div", figure, panel.note, "source");
       const chart = { lines: panel.lines, x: [panel.lines[0].x[0], Math.max(end, panel.lines[0].x[0] + 1e-9)], y: rangeOf(panel.lines, panel.zero), across: "time (s)" };
@@ -127,10 +132,9 @@
     plane.width = maps.nx; plane.height = maps.ny;
     const paint = plane.getContext("2d"), image = paint.createImageData(maps.nx, maps.ny);
     for (const map of maps.maps) {
-      const level = map.levels, table = colourTable(map.colours), figure = make("div", into, "", "figure");
+      const level = map.levels, table = colourTable(map.colours), [figure, to] = framed(into, map.label, width + 34, tall + 62);
+      const scale = make("div", figure, map.scale, "source");
       map.figure = figure;
-      make("div", figure, map.label);
-      const to = canvas(figure, width + 34, tall + 62), scale = make("div", figure, map.scale, "source");
       scale.style.width = `${width + 34}px`;  // wrapped below a narrow map
       map.draw = step => {
         for (let n = 0; n < cells; ++n) {
@@ -162,9 +166,7 @@
   function showProfiles(into, profiles, unit, height, top) {
     const draws = [];
     for (const chart of profiles.charts) {
-      const figure = make("div", into, "", "figure"), width = 300, rows = profiles.y.length;
-      make("div", figure, `lateral mean: ${chart.title}`);
-      const to = canvas(figure, width, height + 40);
+      const width = 300, rows = profiles.y.length, [figure, to] = framed(into, `lateral mean: ${chart.title}`, width, height + 40);
       drawKey(figure, chart.lines);
       for (const line of chart.lines) line.levels = new Uint16Array(line.y.buffer);
       draws.push(step => drawChart(to, width, height + 40, { x: [chart.low, chart.high], y: [0, top], across: "", up: `height (${unit})`,
@@ -195,9 +197,8 @@
     const steps = all.time.length, numbers = count * 3, total = steps * numbers;
     const places = new Uint16Array(total);
     for (let n = 0; n < total; ++n) places[n] = packed[n] + 256 * packed[total + n] + (n >= numbers ? places[n - numbers] : 0);
-    const size = 460, figure = make("div", into, "", "figure");
-    make("div", figure, "particles: drag to turn, wheel to come nearer, double click to reset");
-    const to = canvas(figure, size, size), element = to.canvas;
+    const size = 460, told = "particles: drag to turn, wheel to come nearer, double click to reset";
+    const [figure, to] = framed(into, told, size, size), element = to.canvas;
     element.id = "particles"; element.tabIndex = 0;
     const key = all.names.map((label, n) => ({ label, colour: all.colours[n], dash: [] })), keys = make("div", figure);
     const bySpecies = all.colours.map(ball), bySpeed = colourTable("solids").filter((_, n) => n % 8 === 0).map(c => ball(`rgb(${c})`));
@@ -213,11 +214,12 @@
         const across = cy * a + sy * c, into = -sy * a + cy * c;
         return [size / 2 + scale * across, size / 2 - scale * (cp * b - sp * into), cp * into + sp * b];
       };
+      const trace = points => { to.beginPath(); for (const point of points) to.lineTo(...project(...point).slice(0, 2)); };
       to.clearRect(0, 0, size, size);
       to.strokeStyle = "#bbb";
       for (let k = 0; k < 3; ++k) for (let n = 0; n < 4; ++n) {
-        const ends = [0, 1].map(e => { const p = [0, 0, 0]; p[k] = e * all.size[k]; p[(k + 1) % 3] = (n & 1) * all.size[(k + 1) % 3]; p[(k + 2) % 3] = (n >> 1) * all.size[(k + 2) % 3]; return project(...p); });
-        to.beginPath(); to.moveTo(ends[0][0], ends[0][1]); to.lineTo(ends[1][0], ends[1][1]); to.stroke();
+        trace([0, 1].map(end => all.size.map((length, axis) => length * [end, n & 1, n >> 1][(axis - k + 3) % 3])));
+        to.stroke();
       }
       const seen = [], stride = Math.max(1, Math.ceil(count / most));
       for (let n = 0; n < count; n += stride) {
@@ -233,16 +235,11 @@
         to.drawImage(sprite, x - r, y - r, 2 * r, 2 * r);
       }
       to.strokeStyle = "#222"; to.lineWidth = 1.5; to.fillStyle = "#00000014";  // walls inside and the rim of an opening, seen through the particles
-      for (const line of all.outlines) {
-        to.beginPath();
-        for (const point of line) to.lineTo(...project(...point).slice(0, 2));
-        to.closePath(); to.fill(); to.stroke();
-      }
+      for (const line of all.outlines) { trace(line); to.closePath(); to.fill(); to.stroke(); }
       to.font = "11px sans-serif"; to.textAlign = "left";
       for (const [label, colour, line] of all.ports) {
-        to.strokeStyle = to.fillStyle = colour; to.beginPath();
-        for (const point of line) to.lineTo(...project(...point).slice(0, 2));
-        to.closePath(); to.stroke(); to.fillText(label, ...project(...line[0]).slice(0, 2));
+        to.strokeStyle = to.fillStyle = colour;
+        trace(line); to.closePath(); to.stroke(); to.fillText(label, ...project(...line[0]).slice(0, 2));
       }
       to.lineWidth = 1;
       element.dataset.drawn = seen.length; element.dataset.outlines = all.outlines.length;
@@ -275,14 +272,13 @@
     return { time: all.time, draw(step) { view.step = step; draw(); }, by };
   }
 
-  function choice(into, name, options, act) {
-    const label = make("label", into, name + " "), select = make("select", label);
+  function choice(into, id, name, options, chosen, act) {
+    const select = make("select", make("label", into, name + " "));
     for (const [value, text] of options) make("option", select, text).value = value;
+    select.id = id; select.value = chosen;
     select.addEventListener("change", () => act(select.value));
-    return select;
   }
 
-  const KINDS = { solids: "solids fraction", voidage: "voidage", velocity: "upward velocity" };
   let showing = 0;  // drawings so far
 
   /** Draws all; where: {time, end, kind, by} keeps what the reader has chosen when the page renews itself. */
@@ -313,8 +309,8 @@
     slider.setAttribute("aria-label", "stored time");
     slider.value = nearest(times, where.end ? particles ? data.particles.open : times.at(-1) : where.time);
     slider.addEventListener("input", draw);
-    const play = document.createElement("button");
-    play.textContent = "play"; play.id = "play";
+    const play = make("button", controls, "play");
+    play.id = "play";
     controls.prepend(play);
     let timer = null;
     play.addEventListener("click", () => {
@@ -326,13 +322,13 @@
       }, Math.max(40, 8000 / times.length));
     });
     if (maps && maps.kinds.includes("velocity")) {
-      const select = choice(controls, "show", [["solids", "solids fraction and voidage"], ["velocity", KINDS.velocity]], value => { kind = value; draw(); });
-      select.id = "kind"; select.value = kind;
+      const options = [["solids", "solids fraction and voidage"], ["velocity", "upward velocity"]];
+      choice(controls, "kind", "show", options, kind, value => { kind = value; draw(); });
     }
     if (particles) {
-      const select = choice(controls, "colour by", [["species", "species"], ["speed", "speed"]], value => { where.by = value; particles.by(value); });
-      select.id = "by"; select.value = where.by || "species";
-      particles.by(select.value);
+      const by = where.by || "species";
+      choice(controls, "by", "colour by", [["species", "species"], ["speed", "speed"]], by, value => { where.by = value; particles.by(value); });
+      particles.by(by);
     }
     for (const part of [data.maps, data.particles]) if (part && part.note) make("p", bed, part.note, "source");
     if (times.length < 2) controls.style.display = "none";
