@@ -78,9 +78,8 @@ def opened(path):
     raise FormatError(f"cannot read {path}: it is no regular file, but {'a folder' if stat.S_ISDIR(mode) else 'a pipe or a device'}")
 
 
-def read_text(path, newline=None, errors="strict"):
-    """The text of a file. newline: as of open()"""
-    with io.TextIOWrapper(opened(path), encoding="utf-8", newline=newline, errors=errors) as file, contents_of(path):
+def read_text(path, errors="strict"):
+    with io.TextIOWrapper(opened(path), encoding="utf-8", errors=errors) as file, contents_of(path):
         return file.read()
 
 

@@ -57,8 +57,3 @@ def keys_of_case(text: str) -> dict[str, Value]:
         if isinstance(entries, list):
             case[name] = {str(entry.get("name", n)): entry for n, entry in enumerate(entries, start=1)}
     return dict(flat(case))
-
-
-def words(overrides: Overrides | None) -> list[str]:
-    """The options of the command line that say the same."""
-    return [word for key, value in flat(overrides) for word in ("--set", f"{key}={toml(value)}")]

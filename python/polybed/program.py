@@ -20,7 +20,7 @@ from polybed.checks import Check
 from polybed.ending import NUMBERS, WRONG_CASE
 from polybed.errors import ArgumentError, ProgramError
 from polybed.files import FAULTS, MISFITS, read_json
-from polybed.overrides import Overrides, Value, plain, toml, words
+from polybed.overrides import Overrides, Value, flat, plain, toml
 from polybed.progress import BarOfRuns, put
 from polybed.quantities import unknown
 from polybed.read import Run, read
@@ -67,7 +67,9 @@ def teller(quiet: bool, name: str = "") -> Callable[[str], None]:
 
 
 def settings(overrides: Overrides | None, until: Value | None = None) -> list[str]:
-    return words(overrides) + ([] if until is None else ["--until", str(plain(until, "until"))])
+    """The options of the command line that say the same."""
+    words = [word for key, value in flat(overrides) for word in ("--set", f"{key}={toml(value)}")]
+    return words + ([] if until is None else ["--until", str(plain(until, "until"))])
 
 
 def cases_folder() -> Path | None:

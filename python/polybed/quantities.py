@@ -84,8 +84,7 @@ def find(run: Run, name: str, source: str | None = None) -> Quantity:
     """A quantity of a run: of its history, where the unit at the end of a column's name may be left out ("bed_height"), of its
     profiles, or of its fields. The first that has it, unless a source is named."""
     for key in sources_of(source):
-        quantity = found_in(run, key, name)
-        if quantity is not None:
+        if (quantity := found_in(run, key, name)) is not None:
             return quantity
     if others := [key for key in SOURCES if found_in(run, key, name) is not None]:
         raise UnknownNameError(f"{run.directory} has no {name} in {source}; it is in {' and '.join(others)}")

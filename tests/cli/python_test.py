@@ -109,7 +109,7 @@ class Package(Scratch):
         self.assertEqual(resolved(rich, np.float64(2)), resolved(plain, 2))
         self.assertNotEqual(resolved(plain, 2), resolved({}, 2))
         jet = {"from": [0.001], "to": [0.002], "superficial_velocity": np.int64(1)}
-        self.assertEqual(package.words({"jet": (jet,)}),
+        self.assertEqual(package.settings({"jet": (jet,)}),
                          ["--set", 'jet=[{"from" = [0.001], "to" = [0.002], "superficial_velocity" = 1}]'])
         with self.assertRaisesRegex(TypeError, "tfm.rtol: a value of type NoneType"):
             polybed.run(CASE, overrides={"tfm": {"rtol": None}})

@@ -130,19 +130,14 @@ def draw_history(runs, window):
 def commands(found, records, scan=None):
     """The lines that make the runs, in place of those that are there, the scan that the inversion velocity is from (if it says
     what it was asked for), and the comparison again, from the folder in which they were made."""
-    case = found["case"]
-    lines = []
-    for model, record in records.items():
-        words = [*inversion_scan.on_ranks(record["ranks"]), "polybed", model, case, *words_of(record["overrides"])]
-        lines.append(words + ["-o", found["models"][model]["directory"], "--force"])
-    if scan and "scan" in scan:
-        lines.append(inversion_scan.commands(scan))
-    words = ["polybed", "compare", case, *words_of(found["overrides"])]
-    for model in records:
-        words += [f"--{model}", found["models"][model]["directory"]]
-    if "inversion_file" in found:
-        words += ["--inversion", str(Path(found["inversion_file"]).parent)]
-    return "\n".join(shlex.join(words) for words in [*lines, words + ["-o", found["directory"]]])
+    case, folders = found["case"], {model: found["models"][model]["directory"] for model in records}
+    runs = [[*inversion_scan.on_ranks(record["ranks"]), "polybed", model, case, *words_of(record["overrides"]), "-o", folders[model], "--force"]
+            for model, record in records.items()]
+    scans = [inversion_scan.commands(scan)] if scan and "scan" in scan else []
+    given = [word for model, folder in folders.items() for word in (f"--{model}", folder)]
+    given += ["--inversion", str(Path(found["inversion_file"]).parent)] if "inversion_file" in found else []
+    again = ["polybed", "compare", case, *words_of(found["overrides"]), *given, "-o", found["directory"]]
+    return "\n".join(map(shlex.join, [*runs, *scans, again]))
 
 
 def folder_of(run, *parts):
@@ -180,13 +175,12 @@ def measures(found):
 
 
 def scores(found):
-    rows = []
-    for name, score in found["scores"].items():
-        if name == "order":
-            continue
+    def verdict_of(name, reached):
         undecided = RECOVERY[None] if is_recovery(name) else ""
-        verdict = {True: "reached", False: Html('<span class="missed">missed</span>'), None: undecided}[score["reached"]]
-        rows.append([score_words(name), with_error(score["value"], score["error"]), with_error(score["goal"]) if score["goal"] else "", verdict])
+        return {True: "reached", False: Html('<span class="missed">missed</span>'), None: undecided}[reached]
+
+    rows = [[score_words(name), with_error(score["value"], score["error"]), with_error(score["goal"]) if score["goal"] else "",
+             verdict_of(name, score["reached"])] for name, score in found["scores"].items() if name != "order"]
     order = found["scores"]["order"]
     top = [f"{NAMES[model]}: {top_text(order[model])}" for model in NAMES if order[model]]
     verdict = {True: "the same", False: Html('<span class="missed">not the same</span>'), None: ""}[order["same"]]

@@ -178,9 +178,8 @@ def outlines_of_wall(size, start, end, is_round, thickness):
 
 def outlines_of(run):
     """Closed lines round the walls inside the column, the opening and the foot of a round column, [[x, y, z], ...] each, m."""
-    size, lines = run.particles.size, []
-    for wall in walls_of(run):
-        lines += outlines_of_wall(size, *wall)
+    size = run.particles.size
+    lines = [line for wall in walls_of(run) for line in outlines_of_wall(size, *wall)]
     if case_of(run.record).get("column", {}).get("shape") == "cylinder":
         lines.append(circle_in(size, size[0], 0))
     return [np.array(line, dtype=float).reshape(-1, 3) for line in lines + opening_of(run)]

@@ -52,8 +52,7 @@ class RunsOfModel:
         self.runs.append(made)
         self.velocities.append(velocity)
         self.integrators.append(integrator)
-        if speaks(self.request):
-            say(report.line(self.name, velocity, None if source is None else self.velocities[source], made, reused))
+        say(self.request, report.line(self.name, velocity, None if source is None else self.velocities[source], made, reused))
         column = case.keys["column"]
         below_top = column["size"][1] * (1 - 1 / column["cells"][1])
         return Mean(made["centre_difference"], made["error"], made["bed_height_m"] >= below_top)
@@ -73,10 +72,11 @@ def speaks(request):
     return not (request["json"] or request["quiet"])
 
 
-def say(line):
+def say(request, line):
     """A line in between: nobody has to read it."""
-    with suppress(StudyError):
-        answer(line)
+    if speaks(request):
+        with suppress(StudyError):
+            answer(line)
 
 
 def measure(directory):
@@ -132,8 +132,7 @@ def make(request):
     request["until_s"] = case.keys["run"]["until"]
     request["overrides"] = [*request["overrides"], *choice_of(case.keys)]
     with taken(directory):
-        if speaks(request):
-            say(report.head())
+        say(request, report.head())
         models = ["tfm", "dem"] if request["scan"] == "both" else [request["scan"]]
         scans = [scan_of(request, case.table, model) for model in models]
         path = directory / "inversion.json"
