@@ -17,18 +17,12 @@ from polybed.study.scores import with_error
 from polybed.study.inversion_search import known
 
 
-def columns(scan):
-    """Velocities in m/s, means and half-widths of a model's runs, by rising velocity."""
-    rows = sorted((run["velocity_m_s"], run["centre_difference"], run["error"]) for run in scan["runs"])
-    return np.array(rows).T
-
-
 def draw(found, _folder=None):
     """Mean difference of the centres over the velocity, by each model, with what was found."""
     figure, axes = plt.subplots(figsize=(6.4, 4.2), constrained_layout=True)
     factor, unit = fitting("m/s", max((run["velocity_m_s"] for scan in found["models"].values() for run in scan["runs"]), default=0))
     for n, (model, scan) in enumerate(found["models"].items()):
-        velocity, value, error = columns(scan)
+        velocity, value, error = np.array(sorted((run["velocity_m_s"], run["centre_difference"], run["error"]) for run in scan["runs"])).T
         label = NAMES[model]
         if scan["velocity_m_s"] is not None:
             low, high = known(scan["outcome"], *(scan[f"{name}_m_s"] for name in ("low", "high", "velocity", "error")))

@@ -7,7 +7,7 @@ import numpy as np
 
 from polybed.drawing.curves import mean_over
 from polybed.drawing.style import (EMPTY, FEW_SOLIDS, TRACE, around_axis, as_shown, faces_across, fitted, greatest_fraction, in_plane, length_unit,
-                                   shown_height, title_of, width_of)
+                                   shown_height, title_of)
 from polybed.files import DamagedError
 from polybed.folder import case_of
 from polybed.texts import fitting
@@ -30,7 +30,7 @@ class Group:
 
 def map_size(run, top, most, widths=WIDTHS):
     """Width and height of one map, inches."""
-    aspect = width_of(run) / top
+    aspect = run.size[0] * (2 if around_axis(run) else 1) / top
     width = float(np.clip(most * aspect, *widths))
     return width, min(most, width / aspect)
 

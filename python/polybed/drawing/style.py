@@ -19,7 +19,6 @@ COLOURS = ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9"]
 NAMES = {"tfm": "two-fluid", "dem": "particles"}  # of the models, side by side
 LINES = ["-", "--", "-."]  # beyond six species the colours repeat with another line
 LEVEL_LINES = ["--", ":", "-.", (0, (5, 1, 1, 1, 1, 1))]  # of levels in the bed
-INTERFACE = "interface_m"  # between two species; three have more than one
 TITLE = 90  # characters of a title in a picture
 GREY = "#555555"
 PALE = "#bbbbbb"
@@ -49,11 +48,11 @@ def species_line(n):
 
 
 def levels(history):
-    """(column, label, line) of each level with values in a history: bed height, interface of two species, ..."""
+    """(column, label, line) of each level with values in a history: bed height, interface of two species (three have more than one), ..."""
     lines = dict(zip(LEVELS, itertools.cycle(LEVEL_LINES)))
     species = sum(column.startswith("centre_") for column in history)
     return [(column, label, lines[column]) for column, label in LEVELS.items()
-            if not np.isnan(history.get(column, np.nan)).all() and not (column == INTERFACE and species > 2)]
+            if not np.isnan(history.get(column, np.nan)).all() and not (column == "interface_m" and species > 2)]
 
 
 def drop_over_weight(history):
@@ -95,11 +94,6 @@ def faces_across(run):
     """Faces of the cells from wall to wall, m; 0 is the axis of a run around one."""
     x = run.faces["x"] if run.faces else np.array([0, run.size[0]])
     return np.concatenate([-x[:0:-1], x]) if around_axis(run) else x
-
-
-def width_of(run):
-    """Width of the column from wall to wall, m."""
-    return run.size[0] * (2 if around_axis(run) else 1)
 
 
 def shown_height(run, steps):

@@ -21,11 +21,6 @@ SCRIPT = Path(__file__).with_name("viewer.js").read_text(encoding="utf-8")
 NAME = "report.html"
 
 
-def heading(run):
-    """Title of the case, else the name of the folder."""
-    return title_of_case(run.record) or run.directory.resolve().name
-
-
 def under(run):
     """The line below the title: model, folder, time, state."""
     record = run.record
@@ -65,17 +60,15 @@ def embedded(data):
 def page_of(run, live=page.Html(), follow=()):
     """The page as text. live: what a page that renews itself shows first; follow: the script that renews it"""
     data = drawn(run)
+    views = {"beds": '<div id="bed-view"></div>' if live or data["maps"] or data["particles"] or data["profiles"] else "",
+             "history": '<div id="history-view" class="row"></div>' if live or data["history"] else ""}
     body = live
-    for name, (title, text_of) in parts(run).items():
-        if name == "beds":
-            text_of = page.Html('<div id="bed-view"></div>' if live or data["maps"] or data["particles"] or data["profiles"] else "")
-        if name == "history":
-            text_of = page.Html('<div id="history-view" class="row"></div>' if live or data["history"] else "")
-        body += page.section(name, title, text_of)
+    for name, (title, words) in parts(run).items():
+        body += page.section(name, title, page.Html(views[name]) if name in views else words)
     body += page.warnings(run.record.get("warnings", []))
     body += page.markup('<noscript><p>The pictures need JavaScript.</p></noscript><script type="application/json" id="data">{}</script>',
                         embedded(data))
-    return page.page(heading(run), under(run), body, [SCRIPT, *follow], follows=bool(follow))
+    return page.page(title_of_case(run.record) or run.directory.resolve().name, under(run), body, [SCRIPT, *follow], follows=bool(follow))
 
 
 def write(directory):
