@@ -46,32 +46,25 @@ def band(axes, runs, quantity):
 
 def draw_points(axes, runs, quantity):
     for run in runs:
+        found, predicted = point(run, quantity), run.get("predicted")
         if run["kind"] == "twin":
             continue
-        found = point(run, quantity)
         if run["status"] in ("failed", "refused"):
-            predicted = run.get("predicted")
             place = (found[0], found[2]) if found else (predicted["error"], predicted["cost"]) if predicted else None
             if place:
                 axes.plot(max(place[0], LEAST), place[1], "x", color="black", zorder=4)
-            continue
-        if not found:
-            continue
-        error, interval, cost = found
-        solid = run["status"] in ("pareto", "dominated")
-        axes.errorbar(error, cost, xerr=[[min(interval, 0.9 * error)], [interval]], fmt="o", markersize=4.5,
-                      color=GREY if run["kind"] != "model" else PALE, markerfacecolor=GREY if solid else "white",
-                      elinewidth=0.7, zorder=3)
+        elif found:
+            error, interval, cost = found
+            solid = run["status"] in ("pareto", "dominated")
+            axes.errorbar(error, cost, xerr=[[min(interval, 0.9 * error)], [interval]], fmt="o", markersize=4.5, elinewidth=0.7, zorder=3,
+                          color=GREY if run["kind"] != "model" else PALE, markerfacecolor=GREY if solid else "white")
 
 
 def draw_front(axes, sweep, quantity):
-    front = [point(sweep["runs"][n], quantity) for n in sweep["pareto"]]
-    front = sorted(p for p in front if p)
-    if front:
+    if front := sorted(filter(None, (point(sweep["runs"][n], quantity) for n in sweep["pareto"]))):
         axes.plot([p[0] for p in front], [p[2] for p in front], color="black", lw=2.5, alpha=0.6, zorder=2, label="front")
     for advised in sweep["recommend"]:
-        chosen = point(sweep["runs"][advised["run"]], quantity)
-        if chosen:
+        if chosen := point(sweep["runs"][advised["run"]], quantity):
             axes.plot(chosen[0], chosen[2], "*", color=COLOURS[1], markersize=13, zorder=4, label="recommended")
 
 

@@ -70,12 +70,8 @@ def velocity_row(model, of):
 
 def title_of(found):
     """Title of the case by the record of a run of it, else its path."""
-    for of in found["models"].values():
-        for run in of["runs"]:
-            title = title_of_case(read(run["directory"]).record) if Path(run["directory"]).is_dir() else ""
-            if title:
-                return title
-    return found["case"]
+    folders = (run["directory"] for of in found["models"].values() for run in of["runs"] if Path(run["directory"]).is_dir())
+    return next(filter(None, (title_of_case(read(folder).record) for folder in folders)), found["case"])
 
 
 def tables(found):

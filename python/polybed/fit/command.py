@@ -147,9 +147,8 @@ def told(record):
     every = record["errors"]["all"]
     rows = [[name, f"{every[what]['mean']:.2f}", f"{every[what]['rms']:.2f}", f"{every[what]['greatest']:.1f}"]
             for what, name in COLUMNS if every[what]]
-    lines = [text_table([f"% of {every['fitted']['points']} forces", "mean", "rms", "greatest"], rows)]
-    band = {name: f"{100 * value:.1f} %" for name, value in record["band"].items() if value is not None}
-    return "\n".join([*lines, "band: " + ", ".join(f"{name} {value}" for name, value in band.items()),
+    band = ", ".join(f"{name} {100 * value:.1f} %" for name, value in record["band"].items() if value is not None)
+    return "\n".join([text_table([f"% of {every['fitted']['points']} forces", "mean", "rms", "greatest"], rows), f"band: {band}",
                       f"{record['law']}: use it as drag = \"file:{record['law']}\""])
 
 
