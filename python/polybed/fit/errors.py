@@ -108,7 +108,8 @@ def page(record):
         "## Constants", "",
         f"Intervals by {record['bootstrap']} fits to rows drawn anew from each file. Constants that these rows do not determine are kept.",
         "", constant_table(record), "",
-        f"From the constants alone the force on a row is uncertain by at most {percent(record['from_constants'], none='-')} (one standard deviation).",
+        f"From the constants alone the force on a row is uncertain by at most {percent(record['from_constants'], none='-')} "
+        "(one standard deviation).",
         "", "## Constraints", "",
         "- f = 1 at voidage 1 and Re 0: an identity of the form.",
         "- f at least 1, never falling with Re or with the solids, voidage 0.35 to 1, Re 0 to 1050: greatest departure "

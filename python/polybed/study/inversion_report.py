@@ -14,8 +14,7 @@ class ScanOfModel:
     model: str
     found: Found
     runs: list  # as inversion.json has them, in the order of the steps
-    # Scans of the same range with the case's table of the solids stress at minus and plus one standard error; none where that was not
-    # asked for.
+    # Scans of the same range with the case's table of the solids stress at minus and plus one standard error, if they were asked for.
     moved: list = field(default_factory=list)
 
     def plain(self):
@@ -37,8 +36,7 @@ def mixed_velocities(scan):
     """By velocity, m/s, whether the bed is mixed: with several runs, in all of them."""
     mixed = {}
     for step, run in zip(scan.found.steps, scan.runs, strict=True):
-        interface = run["interface_over_height"]
-        at_height = interface is not None and interface >= AT_HEIGHT
+        at_height = (run["interface_over_height"] or 0.0) >= AT_HEIGHT
         mixed[step.velocity] = mixed.get(step.velocity, True) and at_height
     return mixed
 
@@ -52,7 +50,7 @@ def mixed_interval(scan):
     if not inside:
         return None
     least, greatest = min(inside), max(inside)
-    others = [velocity for velocity, is_mixed in mixed.items() if not is_mixed]
+    others = mixed.keys() - set(inside)
     return {"least_m_s": least, "greatest_m_s": greatest, "below_m_s": max((u for u in others if u < least), default=None),
             "above_m_s": min((u for u in others if u > greatest), default=None)}
 
