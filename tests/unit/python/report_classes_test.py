@@ -1,7 +1,8 @@
 #!/usr/bin/python3
-"""The page of a run whose species have size classes: report_classes_test.py WRITER PACKAGE_DIRECTORY"""
+"""The page of a run whose species have size classes or leave the column: report_classes_test.py WRITER PACKAGE_DIRECTORY"""
 
 import sys
+import types
 import unittest
 
 import h5py
@@ -66,6 +67,29 @@ class KindsOfParticles(SampleRun):
         self.assertEqual((found["names"], len(found["colours"])), (["sand"], 1))
         self.assertEqual(set(unpacked(found["species"], np.uint8)), {0})
         np.testing.assert_array_equal(beds.kind_numbers(["sand.1", "sand.2", "fines", "silt.1", "silt.2"]), [0, 0, 1, 2, 2])
+
+
+class Outflow(unittest.TestCase):
+    """A bed of 2 kg that loses 0.1 kg/s, of which as much is fed: after 10 s, 1 kg of 3 kg has left."""
+
+    def setUp(self):
+        t = np.linspace(0, 10, 101)
+        self.history = {"time_s": t, "mass_fine_kg": np.full(101, 2.0), "in_fine_kg": 0.1 * t, "out_fine_kg": 0.1 * t}
+
+    def test_recovery_and_rate(self):
+        self.assertAlmostEqual(curves.recovery(self.history, ["fine"])["fine"][-1], 1 / 3)
+        time_of, rate = curves.discharge_rate(self.history, ["fine"])
+        np.testing.assert_allclose(rate, 0.1)
+        self.assertAlmostEqual(time_of[0], 10 / curves.PARTS / 2)
+
+    def test_nothing_leaves(self):
+        self.history["out_fine_kg"] *= 0
+        self.assertEqual(curves.mass_out(self.history, ["fine"]), {})
+        self.assertEqual(len(curves.discharge_rate(self.history, ["fine"])[0]), 0)
+
+    def test_panels(self):
+        run = types.SimpleNamespace(history=self.history, species=["fine"], kinds={"fine": ["fine"]})
+        self.assertEqual([panel.label for panel in curves.outflow(run)], ["left the column (kg)", "recovery", "discharge rate (g/s)"])
 
 
 if __name__ == "__main__":

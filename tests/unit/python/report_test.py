@@ -24,7 +24,6 @@ sys.path.insert(0, PACKAGE)
 from report_pages import EVIL, Page, add_case, data_of
 
 import polybed
-from polybed.drawing import curves
 from polybed.report import beds, build, ports, sections, series
 
 MOST_BYTES = 10e6  # of a page
@@ -338,29 +337,6 @@ class Numbers(unittest.TestCase):
     def test_levels(self):
         np.testing.assert_array_equal(series.levels([0, 0.5, 1, 7, np.nan], 0, 1), [0, 127, 254, 254, series.EMPTY])
         self.assertEqual(series.plain_numbers([1.234567, np.nan]), [1.2346, None])
-
-
-class Outflow(unittest.TestCase):
-    """A bed of 2 kg that loses 0.1 kg/s, of which as much is fed: after 10 s, 1 kg of 3 kg has left."""
-
-    def setUp(self):
-        t = np.linspace(0, 10, 101)
-        self.history = {"time_s": t, "mass_fine_kg": np.full(101, 2.0), "in_fine_kg": 0.1 * t, "out_fine_kg": 0.1 * t}
-
-    def test_recovery_and_rate(self):
-        self.assertAlmostEqual(curves.recovery(self.history, ["fine"])["fine"][-1], 1 / 3)
-        time_of, rate = curves.discharge_rate(self.history, ["fine"])
-        np.testing.assert_allclose(rate, 0.1)
-        self.assertAlmostEqual(time_of[0], 10 / curves.PARTS / 2)
-
-    def test_nothing_leaves(self):
-        self.history["out_fine_kg"] *= 0
-        self.assertEqual(curves.mass_out(self.history, ["fine"]), {})
-        self.assertEqual(len(curves.discharge_rate(self.history, ["fine"])[0]), 0)
-
-    def test_panels(self):
-        run = types.SimpleNamespace(history=self.history, species=["fine"], kinds={"fine": ["fine"]})
-        self.assertEqual([panel.label for panel in curves.outflow(run)], ["left the column (kg)", "recovery", "discharge rate (g/s)"])
 
 
 class Written(unittest.TestCase):
