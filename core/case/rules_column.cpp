@@ -207,6 +207,8 @@ std::vector<Rule> end_rules() {
       joined_ends_exclude("column.grading", "column.grading", [](const Scene& s) { return bool(s.column.grading); }),
       joined_ends_exclude("feed.species", "[[feed]]", [](const Scene& s) { return !s.feeds.empty(); }),
       joined_ends_exclude("discharge.at", "[[discharge]]", [](const Scene& s) { return !s.discharges.empty(); }),
+      flowing_around_excludes("column.grading_across", "column.grading_across", "leave it out",
+                              [](const Scene& s) { return bool(s.column.grading_across); }),
       flowing_around_excludes("column.shape", "a round column", "use column.shape = \"box\"",
                               [](const Scene& s) { return s.column.shape != ColumnShape::box; }),
       flowing_around_excludes("column.gravity_direction", "column.gravity_direction other than down", "leave it out",

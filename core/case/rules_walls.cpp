@@ -361,7 +361,7 @@ std::vector<Rule> rules_of_any_wall() {
                 [](const Scene& scene) { return scene.fluid.present() && scene.bed.start.kind == StartKind::layered; }),
       wall_rule("column.sides", "column.sides = \"periodic\" would end it at the side; use \"wall\"",
                 [](const Scene& scene) { return scene.column.sides == Boundary::periodic; }),
-      wall_rule("column.ends", "column.ends = \"periodic\" would end it at the bottom; use \"wall\"",
+      wall_rule("column.ends", "column.ends = \"periodic\" cannot be combined with it; use \"wall\"",
                 [](const Scene& scene) { return scene.column.ends == Boundary::periodic; }),
       wall_rule("column.size", "a cone or cylinder needs three dimensions; give column.size three numbers",
                 [](const Scene& scene) {

@@ -10,6 +10,7 @@ def jets(*parts):
 
 JOINED_IN_FLUID = {
     **{f'column.ends = "periodic" in a fluid and {what} cannot be combined yet: {remedy}': [JOINED, *settings] for what, remedy, settings in (
+        ("column.grading_across", "leave it out", ["column.grading_across=1.1"]),
         ("a round column", 'use column.shape = "box"', ["column.shape=axisymmetric"]),
         ("column.gravity_direction other than down", "leave it out", [TILTED]),
         ("a compressible fluid, whose pressure is given at a top,", 'use fluid.equation_of_state = "incompressible"', AIR))},

@@ -74,7 +74,7 @@ WALLS = {
          ['jet=[{at="left", from=[0.05], to=[0.08], superficial_velocity=0.1}]']),
         ('bed.start = "layered" cannot be combined with it in a fluid; use "mixed"', ["bed.start=layered"]),
         ('column.sides = "periodic" would end it at the side; use "wall"', ["column.sides=periodic"]),
-        ('column.ends = "periodic" would end it at the bottom; use "wall"', ["column.ends=periodic"]),
+        ('column.ends = "periodic" cannot be combined with it; use "wall"', ["column.ends=periodic"]),
         ('bed.start = "random" would place particles on both sides of it; use "mixed"', ["bed.start=random"]))},
     '[[wall]] number {} is {} m thick, in the fluid it needs {} m or more on these cells, a rod twice as much as a cell: give wall.thickness, '
     'take smaller cells, or set fluid.name = "none"': [wall([0.02, 0.1], [0.06, 0.1], thickness=0.005)],

@@ -96,6 +96,23 @@ TEST_P(JoinedEnds, WavesKeepTheMassesToRoundOffAndTheMomentumToTheTolerance) {
   EXPECT_GT(most, 1.2e-3);  // they have moved
 }
 
+// The waves reach 0.36, above the onset of the frictional pressure: no bottom bears it, so it moves nothing as a whole.
+TEST_P(JoinedEnds, AFrictionalStressKeepsTheMomentum) {
+  core::Timers timers;
+  core::Scene scene = waves_of(GetParam());
+  scene.effects["solids_stress"] = "frictional";
+  scene.tfm.frictional_onset = 0.3;
+  scene.tfm.max_packing = 0.64;
+  tfm::Model model(scene, timers);
+  start_waves(model, 0);
+  model.show(0);
+  EXPECT_GT(model.fields().stress.pressure[std::size_t(model.constants().grid.index(0, 2))], 0);
+  advance(model, 0.2);
+  const measures::BoxFlow box = flow_of(model);
+  record("velocity of the centre of mass over the slip, frictional", box.mass_velocity / 10.7e-3);
+  EXPECT_NEAR(box.mass_velocity, 0, 1e-6 * 10.7e-3);
+}
+
 // A state that begins half a box higher ends half a box higher: nothing knows where the ends are. The differences are
 // round-off in the solver, which error control and the waves hardly amplify.
 TEST_P(JoinedEnds, AShiftedStateStaysShifted) {

@@ -24,7 +24,9 @@ FrictionalStress::FrictionalStress(const core::Scene& scene, const Constants& co
   law_.strength = scene.tfm.frictional_pressure;
   law_.onset = scene.tfm.frictional_onset;
   law_.max_packing = max_packing_of(scene, constants.bed_share, constants.fluid.density);
-  const double heavy = alone ? (mean_density(constants) - constants.fluid.density) * constants.gravity : 0;
+  // Between joined ends nothing bears a bed: forces towards a bottom would move the whole box.
+  const bool borne = alone && !constants.grid.periodic[1];
+  const double heavy = borne ? (mean_density(constants) - constants.fluid.density) * constants.gravity : 0;
   for (std::size_t a = 0; a < 3 && heavy != 0; ++a)
     lies_towards_[a] = std::copysign(constants.down[a], heavy * constants.down[a]);
   for (std::size_t a = 0; a < 3; ++a)
