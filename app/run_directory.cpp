@@ -61,9 +61,8 @@ core::Scene read_scene(const RunOptions& options, const Models& models) {
   core::Scene scene = read_chosen_case(options.case_path, overrides, models);
   if (options.until_steady() && scene.flows_around())
     throw core::CaseError(
-        "--until steady waits for the height of a bed, and a box with column.ends = \"periodic\" has none: give a "
-        "time, "
-        "for example --until 10");
+        "--until steady waits for the height of a bed, and a box with column.ends = \"periodic\" has none: give "
+        "a time, for example --until 10");
   if (options.until.empty() || options.until_steady()) return scene;
   try {  // checkpoints are part of the result: they do not move with --until
     scene.output.checkpoint_every =

@@ -38,8 +38,7 @@ const std::vector<Term>& terms() {
        "polybed explain drag says which law suits which bed"},
       {"box", "line of the card",
        "a box with column.ends = \"periodic\" in a fluid: what is joined, its solids fraction, and the mean gradient "
-       "of "
-       "the net pressure that drives it; of a run also the velocity of its centre of mass",
+       "of the net pressure that drives it; of a run also the velocity of its centre of mass",
        "column.pressure_gradient"},
       {"slip", "line of the card",
        "in such a box: mean velocity of the fluid less that of each species; superficial: times the mean voidage, over "
@@ -184,6 +183,10 @@ const std::vector<Term>& terms() {
        "the case cannot be run with these settings, or a study does not support its claim; the reason follows", ""},
       {"e_H", "outcome", "of polybed compare: difference of the bed heights over that of the particles; goal 5 %", ""},
       {"e_b", "outcome", "of polybed compare: difference of the distance of two centres over the bed height; goal 0.05",
+       ""},
+      {"e_slip", "outcome",
+       "of polybed compare, in a box whose ends are joined: superficial slip by the two-fluid "
+       "model over that of the particles, less 1; goal 0.05",
        ""},
       {"D1", "outcome", "of polybed compare: how far the layering differs; goal 0.05", ""},
       {"order", "outcome", "of polybed compare: the species on top in both models", ""},

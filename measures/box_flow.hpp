@@ -1,6 +1,7 @@
 // Mean motion in a box whose ends are joined, the same for both models: what a law of drag or a stream is measured by.
 #pragma once
 
+#include <numeric>
 #include <vector>
 
 #include "measures/table.hpp"
@@ -16,14 +17,14 @@ struct BoxFlow {
   double mass_velocity = 0;           ///< momentum over mass of fluid and solids, m/s
   double moved = 0;  ///< by which all particles and the fluid have been moved to keep the momentum, m/s
 
-  /// Of some species together, by volume; 0 without any.
-  [[nodiscard]] double of_solids(Members members) const {
+  /// Of the fluid less that of some species together, by volume; empty without any.
+  [[nodiscard]] Value slip(Members members) const {
     double flux = 0, all = 0;
     for (const std::size_t j : members) {
       flux += fraction[j] * velocity[j];
       all += fraction[j];
     }
-    return all > 0 ? flux / all : 0;
+    return all > 0 ? Value(fluid - flux / all) : Value();
   }
   [[nodiscard]] double voidage() const {
     double eps = 1;
@@ -45,25 +46,30 @@ template <class Source>
 void add_box_flow(bool of_particles, Table<Source>& table) {
   table.push_back({"slip", "m_s",
                    "between joined ends in a fluid: mean velocity of the fluid less that of the species, upwards",
-                   [](const Source& s, Members j) { return s.box.fluid - s.box.of_solids(j); }});
+                   [](const Source& s, Members j) { return s.box.slip(j); }});
   table.push_back({"superficial_slip", "m_s",
-                   "likewise, mean voidage times the mean velocity of the fluid less that of all solids by volume: the "
+                   "between joined ends in a fluid: mean voidage times the mean velocity of the fluid less that of all "
+                   "solids by volume: the "
                    "superficial velocity of the fluid as seen from the solids",
                    [](const Source& s) {
                      std::vector<std::size_t> all(s.box.fraction.size());
-                     for (std::size_t j = 0; j < all.size(); ++j) all[j] = j;
-                     return s.box.voidage() * (s.box.fluid - s.box.of_solids(all));
+                     std::iota(all.begin(), all.end(), std::size_t(0));
+                     const Value slip = s.box.slip(all);
+                     return slip ? Value(s.box.voidage() * *slip) : Value();
                    }});
   table.push_back({"mass_velocity", "m_s",
-                   "likewise, momentum over mass of fluid and solids in the frame of the box: without walls and with "
+                   "between joined ends in a fluid: momentum over mass of fluid and solids in the frame of the box: "
+                   "without walls and with "
                    "column.pressure_gradient = \"weight\" it stays 0",
                    [](const Source& s) { return s.box.mass_velocity; }});
   if (of_particles)
     table.push_back({"frame_velocity", "m_s",
-                     "likewise, velocity that everything has been given since the start to keep the momentum, as "
+                     "between joined ends in a fluid: velocity that everything has been given since the start to keep "
+                     "the momentum, as "
                      "averages over particles are not exact; it moves nothing relative to anything else",
                      [](const Source& s) { return s.box.moved; }});
-  table.push_back({"pressure_gradient", "Pa_m", "likewise, mean gradient of the net pressure, negative upwards",
+  table.push_back({"pressure_gradient", "Pa_m",
+                   "between joined ends in a fluid: mean gradient of the net pressure, negative upwards",
                    [](const Source& s) { return s.box.gradient; }});
 }
 

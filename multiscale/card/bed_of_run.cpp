@@ -224,8 +224,6 @@ BedOfRun bed_of_run(const core::Scene& scene, const core::History& history) {
   bed.window = quarter.end - quarter.begin;
   const Window window{history, *time, quarter.rows(*time)};
   const Inventory all = inventory_of(scene, window);
-  constexpr double least_particles = 10;  // listed particles: fewer are not a bed
-  if (scene.bed.start.kind == core::StartKind::list && all.particles < least_particles) return bed;
   if (scene.flows_around()) {
     std::vector<std::string> names;
     for (const core::Species& species : scene.species) names.push_back(species.name);
@@ -235,6 +233,8 @@ BedOfRun bed_of_run(const core::Scene& scene, const core::History& history) {
         bed.masses.emplace_back(kind.name, last(*mass));
     return bed;
   }
+  constexpr double least_particles = 10;  // listed particles: fewer are not a bed
+  if (scene.bed.start.kind == core::StartKind::list && all.particles < least_particles) return bed;
   bed.height = window.mean("bed_height_m");
   bed.dense = window.mean("dense_height_m");
   bed.pressure = window.mean("pressure_drop_Pa");

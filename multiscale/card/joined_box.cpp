@@ -33,7 +33,8 @@ JoinedBox joined_box_of(const core::Scene& scene, const Balance& balance, const 
     weight += fraction * share[j] * excess[j] * scene.column.gravity;
   }
   JoinedBox box{fraction, given != nullptr ? *given : -weight, given == nullptr};
-  if (!box.by_weight || !balance.law || !(fraction > 0) || core::acts(scene, "gas_slip")) return box;
+  const bool form_a = scene.tfm.form == core::PressureForm::A;
+  if (!box.by_weight || !balance.law || !(fraction > 0) || !form_a || core::acts(scene, "gas_slip")) return box;
   const std::vector<double> slips =
       closures::suspension_slips(*balance.law, 1 - fraction, share, diameter, excess, fluid.density, fluid.viscosity,
                                  scene.column.gravity, box.gradient);

@@ -50,8 +50,8 @@ struct Machine {
 [[nodiscard]] Machine known_machine();
 
 /// Runs small beds for some seconds each: two-fluid model explicit and implicit, particles without a fluid, and with
-/// one
-/// that is solved rarely and often. \param seconds  in total, CPU; a bed that ends before has taken less \param until  simulated, s
+/// one that is solved rarely and often.
+/// \param seconds  in total, CPU; a bed that ends before has taken less  \param until  simulated, s
 [[nodiscard]] Machine measure_machine(double seconds, double until = 100);
 
 [[nodiscard]] std::string machine_text(const Machine& machine);  ///< as JSON
