@@ -135,4 +135,6 @@ def measure_words(name: str) -> str:
         return f"centre of {name[len('centre_'):-len('_m')]}"
     if recovery := re.fullmatch(r"recovery_(?:(top|discharge\d+)_)?(.+)", name):
         return f"recovery of {recovery[2]}" + (f" by {recovery[1]}" if recovery[1] else "")
-    return MEASURES.get(name) or COLUMNS.get(name, {}).get("name", name).replace("_", " ")
+    if name.startswith("slip_"):
+        return f"slip of the fluid over {name[len('slip_'):-len('_m_s')]}"
+    return MEASURES.get(name) or (COLUMNS.get(name, {}).get("name") or name).replace("_", " ")

@@ -31,6 +31,27 @@ class JoinedBox(Scratch):
         self.assertAlmostEqual(card["superficial_slip_m_s"]["value"] / expected["superficial_slip_m_s"], 1, delta=0.03)
         self.assertLess(abs(card["mass_velocity_m_s"]), 1e-15)
 
+    def test_the_models_are_compared_by_their_slips(self):
+        words = ["compare", CASE, "-o", self.folder / "both", "--until", "0.2 s", "--quiet", "--no-picture", "--json"]
+        found = strict_json(self.ends(DONE, *words).stdout)
+        self.assertEqual(list(found["scores"]), ["e_slip", "order"])
+        slip = found["measures"]["superficial_slip_m_s"]
+        self.assertAlmostEqual(found["scores"]["e_slip"]["value"], slip["tfm"] / slip["dem"] - 1, delta=1e-12)
+        self.assertEqual(list(found["measures"]), ["superficial_slip_m_s", "slip_fine_m_s", "slip_coarse_m_s", "pressure_gradient_Pa_m"])
+
+    def test_studies_of_a_bed_are_refused(self):
+        for words in (["cost", CASE], ["inversion", CASE, "--scan", "tfm", "--from", "10 mm/s", "--to", "20 mm/s"],
+                      ["tfm", CASE, "--closure-uncertainty", "--until", "0.1 s", "--no-picture"]):
+            told = self.ends(WRONG_CASE, *words, "-o", self.folder / words[0], "--quiet").stderr
+            self.assertIn('has no height and no inlet; polybed compare gives its slips', told)
+
+    def test_no_slip_is_foreseen_or_measured_that_is_not_known(self):
+        """check solves the balance of form A alone, and a species without particles has no slip."""
+        expected = strict_json(self.ends(DONE, "check", CASE, "--json", "--set", 'tfm.form="B"').stdout)["expected"]
+        self.assertIsNone(expected["superficial_slip_m_s"])
+        card = self.card("dem", "--until", "0.01 s", "--set", "bed.particles=[0,18]", "--set", "bed.solids_fraction=0.6")
+        self.assertEqual(list(card["slip_m_s"]), ["coarse"])
+
     def test_nothing_is_read_from_a_bottom(self):
         card = self.card("tfm", "--until", "0.1 s")
         self.assertIsNone(card["bed_height_m"])

@@ -18,7 +18,7 @@ from polybed.cost.sweeper import Sweeper, common_overrides
 from polybed.files import contents_of, put_text, read_json, read_text
 from polybed.program import name_of
 from polybed.runner import call, words_of
-from polybed.study.cases import Case
+from polybed.study.cases import Case, refuse_without_ends
 from polybed.study.output import draw, json_text, subfolder, taken
 
 TIME_ALLOWED, ROUNDING = 0.25, 1e-9  # of the time and the error of a recommendation that is run again
@@ -107,6 +107,7 @@ def run_sweep(scene, options, runner):
 def sweep(given):
     case = given.words[0]
     scene = Scene(case, given.set, given.until)
+    refuse_without_ends(scene.keys, "polybed cost")
     folder = given.output or Path("runs") / f"{name_of(case)}-cost"
     if (folder / "cost.json").exists() and not given.resume and not given.force:
         raise StudyError(WRONG_CASE, f"{folder} contains a study already: --resume continues it, --force replaces it")

@@ -149,7 +149,8 @@ SCORES = {"e_H": "bed height: two-fluid model over particles, less 1",
           "e_b": "distance of the centres of two species over the bed height: difference of the models",
           "D1": "layering: 0 if both models layer the species alike, 1 if one is upside down; "
                 "the difference in the share of species 2 over the solids counted from below, integrated",
-          "u_inv": "inversion velocity: two-fluid model over particles, less 1"}
+          "u_inv": "inversion velocity: two-fluid model over particles, less 1",
+          "e_slip": "superficial slip: two-fluid model over particles, less 1"}
 
 
 def score_words(name):

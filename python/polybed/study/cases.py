@@ -2,6 +2,7 @@
 
 import tomllib
 
+from polybed.ending import WRONG_CASE, StudyError
 from polybed.folder import velocity_of
 from polybed.overrides import keys_of_case, toml
 from polybed.runner import answer_of, words_of
@@ -24,6 +25,12 @@ class Case:
         self.species = [species["name"] for species in self.keys["species"]]
         law = self.keys.get("effects", {}).get("solids_stress", "")
         self.table = law.removeprefix("table:") if law.startswith("table:") else None  # path of its table of the solids stress, a text
+
+
+def refuse_without_ends(keys, what):
+    """Refuses a study of a bed for a box whose ends are joined in a fluid. keys: of the case"""
+    if keys["column"].get("ends") == "periodic" and keys["fluid"]["name"] != "none":
+        raise StudyError(WRONG_CASE, f'{what}: a box with column.ends = "periodic" has no height and no inlet; polybed compare gives its slips')
 
 
 def hash_of(content):

@@ -10,7 +10,7 @@ import tempfile
 from pathlib import Path
 
 from polybed.study.output import draw, remark, taken, write_record
-from polybed.study.cases import Case
+from polybed.study.cases import Case, refuse_without_ends
 from polybed.study.closure_band import band_of, tilt_of, width_of, write_moved
 from polybed.ending import DONE, NUMBERS, WRONG_CASE, StudyError, answer, guarded
 from polybed.runner import answer_of, call, words_of
@@ -199,6 +199,7 @@ def tell_tfm(record):
 
 def make_tfm(request):
     bed = Bed(request)
+    refuse_without_ends(bed.case.keys, "--closure-uncertainty")
     if "profile" in bed.case.keys["column"]:
         raise StudyError(WRONG_CASE, "--closure-uncertainty: the bands are those at one voidage, which differs along a column that tapers")
     run_case(request, bed.case)

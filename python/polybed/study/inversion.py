@@ -13,7 +13,7 @@ from pathlib import Path
 from polybed.files import contents_of, read_bytes
 from polybed.folder import drift_lines, read_record
 from polybed.study import inversion_report as report
-from polybed.study.cases import Case, hash_of
+from polybed.study.cases import Case, hash_of, refuse_without_ends
 from polybed.ending import DONE, WRONG_CASE, StudyError, answer, guarded
 from polybed.study.inversion_search import Mean, search
 from polybed.study.measured import means_of
@@ -129,6 +129,7 @@ def make(request):
     """Makes the scan that is asked for, and writes inversion.json."""
     directory = Path(request["directory"])
     case = Case(request["case"], request["overrides"], request["until"])
+    refuse_without_ends(case.keys, "polybed inversion --scan")
     request["until_s"] = case.keys["run"]["until"]
     request["overrides"] = [*request["overrides"], *choice_of(case.keys)]
     with taken(directory):

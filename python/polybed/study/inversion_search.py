@@ -60,7 +60,7 @@ class Found:
 class Search:
     def __init__(self, run):
         """run: (velocity, number of the run to go on from or None) -> Mean"""
-        self.run, self.steps = run, []
+        self.run, self.steps, self.filled = run, [], False
 
     def at(self, velocity, source):
         mean = self.run(velocity, source)
@@ -79,6 +79,7 @@ class Search:
             low, high = self.low.mean, self.high.mean
             up = abs(high.value) < abs(low.value) if high.certain == low.certain else not high.certain
             if up and self.high.mean.filled:
+                self.filled = True
                 return False
             former = self.high if up else self.low
             end = self.at(former.velocity * WIDENING if up else former.velocity / WIDENING, former.run)
@@ -144,4 +145,4 @@ def search(low, high, run):
     of = Search(run)
     of.low = of.at(low, None)
     of.high = of.at(high, of.low.run)
-    return of.narrow() if of.enclose() else of.found("filled" if of.high.mean.filled else "not found")
+    return of.narrow() if of.enclose() else of.found("filled" if of.filled else "not found")

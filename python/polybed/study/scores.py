@@ -21,6 +21,7 @@ COMPOSITION_GOAL_NEAR_INVERSION = 0.1
 NEAR_INVERSION = 0.05  # of a velocity over that of the inversion, less 1
 CONFIDENCE = 0.95  # of all intervals
 MODELS = ("tfm", "dem")
+SLIP = "superficial_slip_m_s"  # of a box whose ends are joined
 
 
 def joint_error(first, second):
@@ -77,8 +78,8 @@ def distance_score(found, goal=None):
     return score(found.mean, found.error, goal) if found else score(goal=goal)
 
 
-def height_score(tfm, dem):
-    """The ratio of the bed heights, less 1."""
+def ratio_score(tfm, dem):
+    """The ratio of two means, less 1."""
     if not (tfm and dem):
         return score(goal=GOAL)
     quotient, error = tfm.mean / dem.mean, None
@@ -97,7 +98,9 @@ def recovery_score(of):
 
 def scores_of(means, measures, distances, species, kinds):
     """Scores by name, and the order of the layers. means: by model and name; kinds: species with their classes as one."""
-    found = {"e_H": height_score(*(of["bed_height_m"] for of in means.values()))}
+    if SLIP in measures:
+        return {"e_slip": ratio_score(*(of[SLIP] for of in means.values())), "order": {"tfm": None, "dem": None, "same": None}}
+    found = {"e_H": ratio_score(*(of["bed_height_m"] for of in means.values()))}
     if len(kinds) > 1:
         b = measures["centre_difference"]
         found |= {"e_b": score(b["difference"], b["difference_error"], GOAL), "D1": distance_score(distances.get("composition"), GOAL)}
@@ -117,6 +120,9 @@ def compare(tfm, dem):
     several, centres = ["centre_difference", "mixing"] if len(kinds) > 1 else [], dict.fromkeys(map(centre_column, [*species, *kinds]))
     names = ["bed_height_m", "pressure_drop_Pa", "pressure_drop_over_weight", *centres, *several]
     means = {model: {name: run.means.get(name) for name in names} for model, run in by_model.items()}
+    if SLIP in runs[0].means:  # a box without ends has no heights
+        names, several = [SLIP, *(f"slip_{name}_m_s" for name in species), "pressure_gradient_Pa_m"], []
+        means = {model: {name: run.means.get(name) for name in names} for model, run in by_model.items()}
     for model, run in by_model.items() if several else ():
         means[model]["interface_m"] = run.of_profile.get("interface_m")
     measures = {name: measure(means["tfm"][name], means["dem"][name]) for name in means["tfm"]}
@@ -182,7 +188,8 @@ def top_text(top):
     return "-" if top is None else top["species"] + ("" if top["certain"] else " (within the uncertainty)")
 
 
-SCORES = {"e_H": "e_H  bed height", "e_b": "e_b  distance of centres", "D1": "D1   layering", "u_inv": "u_inv  inversion velocity"}
+SCORES = {"e_H": "e_H  bed height", "e_b": "e_b  distance of centres", "D1": "D1   layering", "u_inv": "u_inv  inversion velocity",
+          "e_slip": "e_slip  superficial slip"}
 
 
 def score_words(name):
@@ -222,8 +229,9 @@ def table(record):
     lines = [f"means from {window['begin_s']:.4g} to {window['end_s']:.4g} s, \u00b1 95 %",
              f"{'':30} {'two-fluid (tfm)':>20} {'particles (dem)':>20} {'difference':>20}",
              *(" ".join([f"{title:30}", *(f"{with_error(*number):>20}" for number in numbers)]) for title, *numbers in cells)]
-    lines += [f"{'on top':30} {top_text(order['tfm']):>20} {top_text(order['dem']):>20}", "",
-              "scores: 0 where the models agree (polybed explain e_H)"]
+    if any(order[model] for model in MODELS):
+        lines.append(f"{'on top':30} {top_text(order['tfm']):>20} {top_text(order['dem']):>20}")
+    lines += ["", f"scores: 0 where the models agree (polybed explain {next(iter(record['scores']))})"]
     lines += [score_line(name, score) for name, score in record["scores"].items() if name != "order"]
     lines += ["", *(line for model, run in record["models"].items() for line in work_lines(model, run))]
     return "\n".join([*lines, *(f"warning: {line}" for line in record["warnings"])])
