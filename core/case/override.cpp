@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <sstream>
+#include <string_view>
 
 #include "core/case/depth.hpp"
 
@@ -20,6 +22,19 @@ toml::table parse_override(const std::string& value, const std::string& source) 
   std::ostringstream quoted;
   quoted << toml::table{{"value", value}};
   return toml::parse(quoted.str(), source);
+}
+
+/// Keys of which a case gives one: an override of one replaces what the file says by the other.
+constexpr std::array<std::array<std::string_view, 3>, 1> one_of{{{"inlet", "superficial_velocity", "flow_rate"}}};
+
+void leave_out_other(toml::table& table, const std::vector<std::string>& path) {
+  for (const auto& [name, first, second] : one_of) {
+    if (path.size() != 2 || path[0] != name || (path[1] != first && path[1] != second)) continue;
+    const std::string_view other = path[1] == first ? second : first;
+    const toml::node* given = table.get(other);
+    const bool by_override = given && given->source().path && given->source().path->starts_with("--set ");
+    if (!by_override) table.erase(other);
+  }
 }
 
 }  // namespace
@@ -67,6 +82,7 @@ void apply_override(toml::table& root, const std::string& given, CaseValues& val
   toml::table* last = at->as_table();
   if (last == nullptr) return values.problems().push_back({source, 0, 0, "no such key"});
   last->erase(parts.back());
+  leave_out_other(*last, parts);
   last->insert(toml::key(parts.back(), here), std::move(*parsed.get("value")));
 }
 

@@ -127,7 +127,7 @@ KEYS = {
     **{f"output.{key} = {{}} s: {{}} times until run.until = {{}} s; at most {{}}: take a longer one": [f"output.{key}=1e-12"]
        for key in ("every", "history_every", "checkpoint_every")},
     "inlet.superficial_velocity is missing (or give inlet.flow_rate, or set column.closed = true)": ["inlet.superficial_velocity=!"],
-    "inlet.flow_rate and inlet.superficial_velocity both say how much flows in: give one of them": ["inlet.flow_rate=1e-5"],
+    "inlet.flow_rate and inlet.superficial_velocity both say how much flows in: give one of them": ["inlet={flow_rate=1e-5, superficial_velocity=0.01}"],
     "inlet.flow_rate in two dimensions needs column.depth: without it there is no area that it flows through": FLOW,
     "inlet.flow_rate makes {} m/s over the column's cross-section; at most 1000 m/s": [*FLOW, "column.depth=0.01", "inlet.flow_rate=10"],
     'fluid.equation_of_state = "ideal_gas": water is a liquid; "tait" is the law of a compressible liquid': [
