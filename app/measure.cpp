@@ -250,6 +250,8 @@ void run_measure(const MeasureOptions& options) {
   const StoredRun run = read_run(options.run);
   if (options.json) return print_json(run, options);
   if (options.csv) return print_in_si(run);
+  if (run.around())
+    return core::print("joined ends: nothing is read along the height; slips are in history.csv and on the card\n");
   if (options.details || run.time.empty()) return print_table(in_time(run));
   print_summary(run, measured(run));
 }

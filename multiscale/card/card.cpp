@@ -339,6 +339,9 @@ std::vector<std::string> expectation_lines(const core::Scene& scene, const BedOf
     const std::string by_own = own.empty() ? "" : fmt::format("; {} by {}", each(own), bed.own.law);
     lines.push_back(card_line("expands by", each(all) + " by laws of such beds" + by_own));
   }
+  const bool liquid = !bed.species.empty() && bed.species.front().geldart.empty();
+  if (bed.expansion.empty() && liquid && bed.own.height && !bed.leaving.empty())
+    lines.push_back(card_line("expands by", "not foreseen where a species leaves: leave out " + each(bed.leaving)));
   if (bed.discharge) add_discharge(*bed.discharge, lines);
   if (!bed.discharge && scene.dem.opening && !scene.walls.empty())
     lines.push_back(

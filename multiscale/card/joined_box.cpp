@@ -60,8 +60,9 @@ void add_joined_box(const core::Scene& scene, const JoinedBox& box, const std::s
   std::vector<std::string> slips;
   for (const auto& [name, slip] : box.slips) slips.push_back(name + " " + velocity_text(slip, 0));
   const std::string species = slips.size() > most_listed ? "" : "slip of the fluid over " + each(slips) + ", ";
-  lines.push_back(card_line("expect", fmt::format("{}superficial {} over all solids, by {} while it stays even",
-                                                  species, velocity_text(*box.superficial_slip, 0), law)));
+  const char* without = core::acts(scene, "species_exchange") ? ", without species_exchange" : "";
+  lines.push_back(card_line("expect", fmt::format("{}superficial {} over all solids, by {}{} while it stays even",
+                                                  species, velocity_text(*box.superficial_slip, 0), law, without)));
 }
 
 void add_slips(const BedOfRun::Joined& run, std::vector<std::string>& lines) {

@@ -19,8 +19,8 @@ if TYPE_CHECKING:
 # What `polybed measure --list --json` says of every measure.
 TABLE = json.loads(pathlib.Path(__file__).with_name("measures.json").read_text())
 COLUMNS = {row["column"]: row for part in ("bed", "tfm", "dem") for row in TABLE[part] if row["column"]}
-# Units by the end of a column's name; none is the end of another.
-ENDINGS = {f"_{row['unit']}": row["unit"] for row in COLUMNS.values() if row["unit"] != "1"}
+# Units by the end of a column's name, the longest first: m_s before s.
+ENDINGS = {f"_{unit}": unit.replace("_", "/") for unit in sorted({row["unit"] for row in COLUMNS.values()} - {"1"}, key=len, reverse=True)}
 # Levels in a bed, by column what a picture calls them.
 LEVELS = {column: row["name"].replace("_", " ") for column, row in COLUMNS.items() if row["picture"]}
 SOURCES = ("history", "profiles", "fields")  # of quantities, in the order in which they are looked for
@@ -137,4 +137,5 @@ def measure_words(name: str) -> str:
         return f"recovery of {recovery[2]}" + (f" by {recovery[1]}" if recovery[1] else "")
     if name.startswith("slip_"):
         return f"slip of the fluid over {name[len('slip_'):-len('_m_s')]}"
-    return MEASURES.get(name) or (COLUMNS.get(name, {}).get("name") or name).replace("_", " ")
+    unit = next((ending for ending in ENDINGS if name.endswith(ending)), "")
+    return MEASURES.get(name) or (COLUMNS.get(name, {}).get("name") or name.removesuffix(unit)).replace("_", " ")

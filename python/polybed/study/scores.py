@@ -55,7 +55,9 @@ def on_top(centres):
 def too_short(run, means):
     """(the slowest quantity, how long a run has to be for its mean, s, up to the next two digits), of a window that is too short; else None.
     means: by name"""
-    times = {name: mean.correlation for name, mean in means.items() if mean and mean.error is not None}
+    swing = 1e-4  # of the mean: below it a longer window tells no more
+    known = {name: mean for name, mean in means.items() if mean and mean.error is not None}
+    times = {name: mean.correlation for name, mean in known.items() if mean.error > swing * abs(mean.mean)}
     slowest = max(times, key=times.get, default=None)
     if slowest is None or run.rows >= ENOUGH * times[slowest]:
         return None
