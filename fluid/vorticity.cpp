@@ -14,14 +14,16 @@ void add_slope(const core::Grid& grid, const core::FaceField& velocity, int of, 
   const Field& u = velocity[std::size_t(of)];
   const Index to_high = grid.stride(of), s = grid.stride(along);
   const double even = sign / (4 * grid.spacing[std::size_t(along)]);
-  const bool graded = along == 1 && grid.layers;
-  const auto per_distance = [&](Index f) { return grid.metric->per_distance[1][std::size_t(f)]; };
-  core::for_each_row(grid, core::owned_cells(grid), [&](Index begin, Index end) {
-    const double scale = graded ? even * 2 / (1 / per_distance(begin) + 1 / per_distance(begin + s)) : even;
-    for (Index c = begin; c < end; ++c)
-      out[std::size_t(c)] += scale * ((u[std::size_t(c + s)] - u[std::size_t(c - s)]) +
-                                      (u[std::size_t(c + s + to_high)] - u[std::size_t(c - s + to_high)]));
-  });
+  const auto add = [&](const auto& scale) {
+    core::for_each_row(grid, core::owned_cells(grid), [&](Index begin, Index end) {
+      for (Index c = begin; c < end; ++c)
+        out[std::size_t(c)] += scale(c) * ((u[std::size_t(c + s)] - u[std::size_t(c - s)]) +
+                                           (u[std::size_t(c + s + to_high)] - u[std::size_t(c - s + to_high)]));
+    });
+  };
+  if (!grid.graded(along)) return add([even](Index) { return even; });
+  const Field& per_distance = grid.metric->per_distance[std::size_t(along)];
+  add([&](Index c) { return even * 2 / (1 / per_distance[std::size_t(c)] + 1 / per_distance[std::size_t(c + s)]); });
 }
 
 }  // namespace

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "core/case/grading.hpp"
+#include "core/numerics/blocks.hpp"
 #include "fluid/boundaries.hpp"
 
 namespace polybed::fluid {
@@ -26,7 +28,7 @@ core::FaceField linear_velocity(const core::Grid& grid) {
       for (int j = -ghosts; j < grid.cells[1] + ghosts; ++j)
         for (int i = -ghosts; i < grid.cells[0] + ghosts; ++i) {
           std::array<double, 3> x{grid.centre(0, i), grid.centre(1, j), grid.centre(2, k)};
-          x[std::size_t(axis)] -= 0.5 * grid.spacing[std::size_t(axis)];
+          x[std::size_t(axis)] = grid.low(axis, std::array{i, j, k}[std::size_t(axis)]);
           double u = 0;
           for (int along = 0; along < grid.dimensions; ++along) u += slope[axis][along] * x[std::size_t(along)];
           velocity[std::size_t(axis)][std::size_t(grid.index(i, j, k))] = u;
@@ -37,20 +39,32 @@ core::FaceField linear_velocity(const core::Grid& grid) {
 // Differences of numbers of order 10 over distances of order 0.1.
 constexpr double round_off = 1e-12;
 
+void expect_that_of_the_slopes(const core::Grid& grid) {
+  std::array<core::Field, 3> omega;
+  find_vorticity(grid, linear_velocity(grid), omega);
+  const bool space = grid.dimensions == 3;
+  core::for_each_row(grid, core::owned_cells(grid), [&](core::Index begin, core::Index end) {
+    for (auto c = std::size_t(begin); c < std::size_t(end); ++c) {
+      EXPECT_NEAR(omega[0][c], space ? -8 - -6 : 0, round_off);
+      EXPECT_NEAR(omega[1][c], space ? 3 - 7 : 0, round_off);
+      EXPECT_NEAR(omega[2][c], 4 - -2, round_off);
+    }
+  });
+}
+
 TEST(Vorticity, IsExactForVelocitiesThatAreLinear) {
-  for (const int dimensions : {2, 3}) {
-    const core::Grid grid = grid_of(dimensions);
-    std::array<core::Field, 3> omega;
-    find_vorticity(grid, linear_velocity(grid), omega);
-    const bool space = dimensions == 3;
-    core::for_each_row(grid, core::owned_cells(grid), [&](core::Index begin, core::Index end) {
-      for (auto c = std::size_t(begin); c < std::size_t(end); ++c) {
-        EXPECT_NEAR(omega[0][c], space ? -8 - -6 : 0, round_off);
-        EXPECT_NEAR(omega[1][c], space ? 3 - 7 : 0, round_off);
-        EXPECT_NEAR(omega[2][c], 4 - -2, round_off);
-      }
-    });
-  }
+  for (const int dimensions : {2, 3}) expect_that_of_the_slopes(grid_of(dimensions));
+}
+
+// Cells that grow from the walls towards the middle, and upwards.
+TEST(Vorticity, IsExactInCellsOfAllSizes) {
+  core::Column column;
+  column.dimensions = 3;
+  column.size = {0.6, 1, 1};
+  column.cells = {6, 5, 4};
+  column.across = {core::graded_widths(0.6, 6, 1.2), core::graded_widths(1, 4, 1.2)};
+  column.layers = {0.1, 0.12, 0.18, 0.25, 0.35};
+  expect_that_of_the_slopes(core::grid_of(column, nullptr));
 }
 
 TEST(Vorticity, HoldsNextToAWallThatHoldsTheFluid) {
