@@ -169,8 +169,7 @@ const std::vector<Term>& terms() {
        "smaller cells"},
       {"undecided", "outcome",
        "of polybed effects: the number is too uncertain to tell whether the effect matters. Of polybed validate: the "
-       "bed "
-       "still drifts, the run failed, an event did not happen, or a side has no interval",
+       "bed still drifts, the run failed, an event did not happen, or a side has no interval",
        "run with and without the effect; a longer run"},
       {"pareto", "outcome", "of polybed cost: no other setting is both cheaper and nearer to the reference", ""},
       {"dominated", "outcome", "of polybed cost: another setting is cheaper and at least as near to the reference", ""},

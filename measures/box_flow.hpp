@@ -49,8 +49,7 @@ void add_box_flow(bool of_particles, Table<Source>& table) {
                    [](const Source& s, Members j) { return s.box.slip(j); }});
   table.push_back({"superficial_slip", "m_s",
                    "between joined ends in a fluid: mean voidage times the mean velocity of the fluid less that of all "
-                   "solids by volume: the "
-                   "superficial velocity of the fluid as seen from the solids",
+                   "solids by volume, the superficial velocity of the fluid as seen from the solids",
                    [](const Source& s) {
                      std::vector<std::size_t> all(s.box.fraction.size());
                      std::iota(all.begin(), all.end(), std::size_t(0));
@@ -59,15 +58,14 @@ void add_box_flow(bool of_particles, Table<Source>& table) {
                    }});
   table.push_back({"mass_velocity", "m_s",
                    "between joined ends in a fluid: momentum over mass of fluid and solids in the frame of the box: "
-                   "without walls and with "
-                   "column.pressure_gradient = \"weight\" it stays 0",
+                   "without walls and with column.pressure_gradient = \"weight\" it stays 0",
                    [](const Source& s) { return s.box.mass_velocity; }});
   if (of_particles)
-    table.push_back({"frame_velocity", "m_s",
-                     "between joined ends in a fluid: velocity that everything has been given since the start to keep "
-                     "the momentum, as "
-                     "averages over particles are not exact; it moves nothing relative to anything else",
-                     [](const Source& s) { return s.box.moved; }});
+    table.push_back(
+        {"frame_velocity", "m_s",
+         "between joined ends in a fluid: velocity that everything has been given since the start to keep "
+         "the momentum, as averages over particles are not exact; it moves nothing relative to anything else",
+         [](const Source& s) { return s.box.moved; }});
   table.push_back({"pressure_gradient", "Pa_m",
                    "between joined ends in a fluid: mean gradient of the net pressure, negative upwards",
                    [](const Source& s) { return s.box.gradient; }});

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "closures/suspension_slip.hpp"
+#include "measures/box_flow.hpp"
 #include "multiscale/card/card.hpp"
 #include "multiscale/card/velocity_text.hpp"
 #include "multiscale/program.hpp"
@@ -25,14 +26,15 @@ JoinedBox joined_box_of(const core::Scene& scene, const Balance& balance, const 
   const relevance::FluidConstants fluid = relevance::fluid_constants(scene.fluid);
   const double fraction = scene.bed.static_height * scene.bed.solids_fraction / scene.column.size[1];
   const double* given = std::get_if<double>(&scene.column.pressure_gradient);
-  std::vector<double> diameter, excess;
-  double weight = 0;  // N/m3
+  std::vector<double> diameter, density, excess, fractions;
   for (std::size_t j = 0; j < share.size(); ++j) {
     diameter.push_back(scene.species[j].diameter);
-    excess.push_back(scene.species[j].density - fluid.density);
-    weight += fraction * share[j] * excess[j] * scene.column.gravity;
+    density.push_back(scene.species[j].density);
+    excess.push_back(density[j] - fluid.density);
+    fractions.push_back(fraction * share[j]);
   }
-  JoinedBox box{fraction, given != nullptr ? *given : -weight, given == nullptr};
+  const double of_weight = measures::gradient_of_weight(fractions, density, fluid.density, -scene.column.gravity);
+  JoinedBox box{fraction, given != nullptr ? *given : of_weight, given == nullptr};
   const bool form_a = scene.tfm.form == core::PressureForm::A;
   if (!box.by_weight || !balance.law || !(fraction > 0) || !form_a || core::acts(scene, "gas_slip")) return box;
   const std::vector<double> slips =

@@ -93,8 +93,8 @@ core::Scene expanding() {
   return graded(scene, 0.04, 1.2);
 }
 
-TEST_P(GradedColumn, KeepsTheMass) {
-  const core::Scene scene = with_integrator(expanding());
+/// After a second of a scene, whose bed fills the volume that it should.
+void expect_masses_kept(const core::Scene& scene) {
   core::Timers timers;
   tfm::Model model(scene, timers);
   model.show(0);
@@ -105,6 +105,8 @@ TEST_P(GradedColumn, KeepsTheMass) {
   const std::vector<double> after = measures::species_volumes(model.constants().grid, model.fields().solids);
   for (std::size_t j = 0; j < 2; ++j) EXPECT_NEAR(after[j], before[j], 1e-12 * before[j]);
 }
+
+TEST_P(GradedColumn, KeepsTheMass) { expect_masses_kept(with_integrator(expanding())); }
 
 TEST_P(GradedColumn, ResumedRunGivesTheSameBits) {
   const TwoEnds ends = through_and_resumed(with_integrator(with_particle_forces(expanding())), 0.2, 0.4);
@@ -140,18 +142,7 @@ core::Scene expanding_across() {
   return scene;
 }
 
-TEST_P(GradedColumn, KeepsTheMassInCellsOfAllWidths) {
-  const core::Scene scene = with_integrator(expanding_across());
-  core::Timers timers;
-  tfm::Model model(scene, timers);
-  model.show(0);
-  const std::vector<double> before = measures::species_volumes(model.constants().grid, model.fields().solids);
-  const double area = scene.column.size[0] * scene.column.size[2];
-  EXPECT_NEAR(before[0] + before[1], area * scene.bed.static_height * scene.bed.solids_fraction, 1e-15 * area);
-  advance(model, 1.0);
-  const std::vector<double> after = measures::species_volumes(model.constants().grid, model.fields().solids);
-  for (std::size_t j = 0; j < 2; ++j) EXPECT_NEAR(after[j], before[j], 1e-12 * before[j]);
-}
+TEST_P(GradedColumn, KeepsTheMassInCellsOfAllWidths) { expect_masses_kept(with_integrator(expanding_across())); }
 
 TEST_P(GradedColumn, ResumedRunInCellsOfAllWidthsGivesTheSameBits) {
   const TwoEnds ends = through_and_resumed(with_integrator(with_particle_forces(expanding_across())), 0.2, 0.4);
