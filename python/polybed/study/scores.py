@@ -121,10 +121,9 @@ def compare(tfm, dem):
     kinds = list(kinds_among(species))
     several, centres = ["centre_difference", "mixing"] if len(kinds) > 1 else [], dict.fromkeys(map(centre_column, [*species, *kinds]))
     names = ["bed_height_m", "pressure_drop_Pa", "pressure_drop_over_weight", *centres, *several]
-    means = {model: {name: run.means.get(name) for name in names} for model, run in by_model.items()}
     if SLIP in runs[0].means:  # a box without ends has no heights
         names, several = [SLIP, *(f"slip_{name}_m_s" for name in species), "pressure_gradient_Pa_m"], []
-        means = {model: {name: run.means.get(name) for name in names} for model, run in by_model.items()}
+    means = {model: {name: run.means.get(name) for name in names} for model, run in by_model.items()}
     for model, run in by_model.items() if several else ():
         means[model]["interface_m"] = run.of_profile.get("interface_m")
     measures = {name: measure(means["tfm"][name], means["dem"][name]) for name in means["tfm"]}
